@@ -1,7 +1,7 @@
 /* Kernel: blurs a grid of cells by a Gaussian along one axis (render/plan/beam.h). An invocation makes four cells that
- * are adjacent along the axis. The sums for these four cells read the same cells, because the weights for a cell are
- * those for the previous cell, shifted by one. ROWS: blurs along columns, from row to row. Beyond the ends of the grid
- * there is no light. */
+ * are adjacent along the axis. The weights for a cell are those for the previous cell, shifted by one. So all four sums
+ * read nearly the same cells, and each cell is read once. If ROWS is set, the kernel blurs down the columns, otherwise
+ * along the rows. Beyond the ends of the grid there is no light. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -30,7 +30,7 @@ void main()
     int x = int(n % across), y = int(n / across), i = ROWS ? int(push.row0) + 4 * y : 4 * x;
     int step_ = ROWS ? int(push.columns) : 1, base = ROWS ? x : (int(push.row0) + y) * int(push.columns);
     int begin = max(i - int(push.reach), 0), end = min(i + 4 + int(push.reach), int(push.length_));
-    /* w(t + 1)/w(t) decreases by the same factor at each step. */
+    /* The weight w falls with the distance t: w(t + 1)/w(t) shrinks by a constant factor at each step. */
     float t = float(begin - i), ratio = exp(-push.narrow * (2 * t + 1)), fall = exp(-2 * push.narrow);
     vec4 w = exp(-push.narrow * vec4(t * t, (t - 1) * (t - 1), (t - 2) * (t - 2), (t - 3) * (t - 3)));
     vec3 sum[4] = { vec3(0), vec3(0), vec3(0), vec3(0) };

@@ -1,6 +1,6 @@
-/* Kernel: converts rows of pixels to rows of cells, or back, by quadratic B-splines (render/plan/beam.h). An invocation
- * makes one cell of a slice of rows from `count` cells of its column, above and below it. There is no light beyond the
- * ends. */
+/* Kernel: converts rows of pixels to rows of cells, or back, by quadratic B-splines (render/plan/beam.h). The dispatch
+ * makes a slice of rows, and each invocation makes one cell. The cell is a weighted sum of `count` cells of the same
+ * column, above and below it. There is no light beyond the ends of the column. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

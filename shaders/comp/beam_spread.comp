@@ -1,5 +1,5 @@
-/* Kernel: converts rows of cells back to rows of light, as the inverse of beam_gather.comp. An invocation makes four
- * pixels of a band, which are three vectors of four floats. */
+/* Kernel: converts rows of cells back to rows of light; this is the inverse of beam_gather.comp. An invocation makes
+ * four pixels of a band. Three vectors of four floats hold them. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -21,8 +21,8 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* Light of the band's pixel n; if n is beyond the band's end, light of the band's last pixel. The quotient as a
- * float is wrong by at most one (post.comp). */
+/* Light of pixel n of the band, or of the band's last pixel if n is beyond the end. The row n/width is computed by a
+ * float product, which may be wrong by one; `more` corrects it. */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);
@@ -33,8 +33,8 @@ vec3 pixel(int n)
     if (!COARSE)
         return cell(row + x);
     float u = (float(x) + 0.5) * push.cells, left = floor(u), t = u - left - 0.5;
-    int i = row + int(left); /* the cell before the pixel's own cell; the grid has one more cell to the left of the
-                              * picture */
+    /* index of the cell before the pixel's own cell, as the grid has one extra cell to the left of the picture */
+    int i = row + int(left);
     return beam_spline(t + 1) * cell(i) + beam_spline(t) * cell(i + 1) + beam_spline(t - 1) * cell(i + 2);
 }
 

@@ -4,14 +4,15 @@
  * appendix A.2) does to first order.
  *
  * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
- * crossing. For directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
- * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
+ * crossing. For directions in the sky it interpolates the unit vector. At the distance x from the middle, in sides of a
+ * pixel, the polynomial's error is x(x^2 - 1)/6 times the third difference along x. This is at most 1/17 of that
+ * difference. The same holds along y.
  *
- * MARK: the kernel interpolates nothing. In the word of each listed pixel, after the list, it writes 1 if interpolation
- * is accurate there and 0 if not. All nine rays must have crossings of the same orders and the same fate. In the metric
- * of the source, the second differences must be less than BENT times the first. For crossings the third differences
- * must be less than TWISTED times the first, so that the error is below 0.004 of a pixel. The word is 0 at the edges of
- * the picture, and of the band in the buffer. */
+ * If MARK is set, the kernel interpolates nothing. It only tests whether interpolation is accurate, and writes 1 or 0
+ * for each listed pixel to the words after the list. Three conditions must hold. All nine rays must have the same fate,
+ * and crossings of the same orders. In the metric of the source, the second differences must be less than BENT times
+ * the first. For crossings the third differences must be less than TWISTED times the first, so that the error is below
+ * 0.004 of a pixel. The word is always 0 at the edges of the picture, and at the edges of the band in the buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -43,7 +44,8 @@ vec3 turned(vec3 d, bool angle)
     return d;
 }
 
-/* Values of the ray at a place of the map. For a crossing: w and a second quantity. For the sky: a unit vector. */
+/* Values that the map stores for the ray at index `at`. Of a crossing: w and a second quantity. Of the sky: a unit
+ * vector. */
 vec3 crossing(uint n, uint quantity, uint at)
 {
     return vec3(lens[at + n * push.map_stride], lens[at + (kd_plane(quantity) + n) * push.map_stride], 0.0);
@@ -56,7 +58,7 @@ vec3 direction(uint at)
     return vec3(s * phi.c, s * phi.s, u);
 }
 
-/* Spot of a ray: crossing n, or the sky if n is ORDERS. */
+/* The values that are interpolated for a ray: those of crossing n, or those of the sky if n is ORDERS. */
 vec3 spot(uint n, uint quantity, uint at) { return n < ORDERS ? crossing(n, quantity, at) : direction(at); }
 
 kd_biquadratic patch_of(uint n, uint quantity, uint at)
@@ -84,7 +86,8 @@ vec3 change(kd_biquadratic p, float x, float y)
            x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
 }
 
-/* True if a patch is straight enough; m: its metric. */
+/* True if the map is nearly linear over a patch, that is, second differences are small relative to first ones. m:
+ * metric of the source. */
 bool straight(kd_biquadratic p, vec3 m)
 {
     vec3 i = m * p.slope_x, j = m * p.slope_y, a = 2.0 * m * p.bend_x, b = 2.0 * m * p.bend_y, c = m * p.xy;
@@ -114,7 +117,7 @@ bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint
     return most < TWISTED * TWISTED * slope;
 }
 
-/* True if all nine rays have the same orders and fate. */
+/* True if all nine rays have crossings of the same orders and the same fate. */
 bool alike(uint at)
 {
     bool same = true;
@@ -154,10 +157,11 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* Each invocation processes one pixel; all rays of the pixel use the same polynomials. */
+/* Offset of ray k of a pixel from the pixel's middle, along one side. Each invocation processes one pixel, and all rays
+ * of that pixel use the same polynomials. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
-/* Writes w of crossing n, and a second quantity. */
+/* Interpolates w of crossing n and a second quantity, and writes both for all rays of a pixel. */
 void interpolate(uint n, uint quantity, uint at, uint to)
 {
     kd_biquadratic p = patch_of(n, quantity, at);
@@ -197,7 +201,7 @@ void fill(uint at, uint to)
             copy(n, at, to);
             continue;
         }
-        for (int i = 0; i < 4; i++) /* w is written together with the other quantities */
+        for (int i = 0; i < 4; i++) /* w was already written together with another quantity */
             if ((QUANTITIES & beside[i]) != 0u &&
                 (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);

@@ -1,6 +1,6 @@
 /* Kernel: sums the light that a lens removes from its place (shared/bloom.glsl) over blocks of BLOCK_X times BLOCK_Y
- * pixels. Blocks are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
- * block if a block is wider.
+ * pixels. Blocks are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or the
+ * columns of one block if these are more than four.
  *
  * A block's rows may be in two or more bands. Each band adds its rows, in order, to the sum of earlier bands. So the
  * result does not depend on where bands end.
@@ -49,9 +49,10 @@ quad quad_at(uint x, uint row)
 #endif
 
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
-           EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of blocks in these */
+           /* WIDE: number of columns of an invocation. EACH: number of blocks in these columns */
+    EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1;
 
-/* The sum that earlier bands have stored for the invocation's n-th block. */
+/* The sum that earlier bands have stored for the invocation's n-th block; 0 if there were none. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
 
 void main()

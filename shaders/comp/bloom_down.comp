@@ -1,6 +1,6 @@
-/* Kernel: makes a grid of half as many cells along each side from the next finer one, with the weights 1, 3, 3, 1 over
- * 8. All light of a fine cell goes to coarse cells, and a quadratic B-spline of the fine grid becomes one of the coarse
- * grid. */
+/* Kernel: makes a grid from the next finer one. The new grid has half as many cells along each side, and the weights
+ * are 1, 3, 3, 1 over 8. Coarse cells receive all light of the fine cells. A quadratic B-spline of the fine grid
+ * becomes a quadratic B-spline of the coarse grid. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

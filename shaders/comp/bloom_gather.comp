@@ -1,7 +1,8 @@
 /* Kernel: spreads the light of blocks of pixels as a quadratic B-spline on the finest grid. A block contributes to its
  * own cell and to the eight cells round it, weighted by the position of the block's centre in its cell. The spread
- * light therefore moves with the block, and has the same width everywhere. Contributions beyond the edge are mirrored
- * inside, or go to the opposite edge. An invocation makes two cells along each side, which share what they read. */
+ * light therefore moves with the block, and has the same width everywhere. Contributions beyond the edge of the picture
+ * are mirrored inside; in a picture of all directions they go to the opposite edge. An invocation makes two cells along
+ * each side, which share what they read. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -24,16 +25,17 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Numbers along an axis: pixels, pixels in a block, blocks, cells. */
+/* Numbers along an axis. pixels: pixels of the picture. block: pixels in a block. blocks: blocks of the picture. cells:
+ * cells of the grid. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
-/* A block, and its weights for two adjacent cells along an axis. */
+/* Index of a block, and the block's weights for two adjacent cells along an axis. */
 struct kd_tap {
     int at;
     float a, b;
 };
 
-/* First of the blocks whose centres are at most 1.5 cells from the centres of cell i or of the next cell. The other
- * such blocks follow it. */
+/* Index of the first block that contributes to cell i or to the next cell. Such a block has its centre at most 1.5
+ * cells from the centre of one of the two cells. The contributing blocks are adjacent. */
 int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
@@ -41,15 +43,16 @@ int first_tap(kd_bloom_axis axis, int i, bool around)
            (around && RAGGED ? 1 : 0); /* beyond the left edge, the next block is the narrow block at the right edge */
 }
 
-/* A block, and its weights by the distance of its centre from that of cell i, in cells. */
+/* The tap for block `within`. at: distance of the block's centre from the centre of cell i, in cells. */
 kd_tap tap_of(kd_bloom_axis axis, int within, float at)
 {
     float scale = float(axis.cells) / float(axis.pixels);
     return kd_tap(clamp(within, 0, int(axis.blocks) - 1), scale * bloom_weight(at), scale * bloom_weight(at - 1));
 }
 
-/* Block k, which may be a mirror image beyond an edge. The last block may be narrower than the others. Its centre is
- * then before the centre of a full block, and its mirror image is moved accordingly. */
+/* The tap for block k. An index beyond an edge stands for the mirror image of a block. The last block may be narrower
+ * than the others. Its centre is then before the centre of a full block, and the mirror images are moved accordingly.
+ */
 kd_tap tap(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), behind = k - count, within = k < 0 ? -1 - k : behind < 0 ? k : count - 1 - behind;
@@ -62,7 +65,7 @@ kd_tap tap(kd_bloom_axis axis, int i, int k)
     return tap_of(axis, within, at);
 }
 
-/* Block k in a picture of all directions; beyond an edge it is at the opposite edge. */
+/* The tap for block k in a picture of all directions. A block beyond an edge is the block at the opposite edge. */
 kd_tap tap_around(kd_bloom_axis axis, int i, int k)
 {
     int count = int(axis.blocks), within = bloom_column(k, count, true),

@@ -1,10 +1,10 @@
 /* Kernel: adds the light that one grid spreads to the sum of the light that all coarser grids spread. The next coarser
  * grid holds that sum; the result is on the cells of the finer grid.
  *
- * With the weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. All grids
- * together are therefore a sum of such splines, whichever grid they are evaluated on. This grid's light is smoothed
- * by 1, 2, 1 over 4 along each side. That filter is zero at the frequency that a grid aliases, so a point of light
- * spreads in the same way wherever it is in its cell. */
+ * With the weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. So the light
+ * of all grids together is a sum of quadratic B-splines, and the result does not depend on the grid on which they are
+ * evaluated. This grid's light is smoothed by 1, 2, 1 over 4 along each side. That filter is zero at the frequency that
+ * a grid aliases, so a point of light spreads in the same way wherever it is in its cell. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -33,7 +33,7 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-/* Smooths four cells in a row by the weights 1, 2, 1: the results for the two middle cells, times 4. */
+/* Results of smoothing four cells in a row by the weights 1, 2, 1: the values of the two middle cells, times 4. */
 struct pair { vec3 a, b; };
 
 pair smoothed(int row, ivec4 x)

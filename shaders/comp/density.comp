@@ -8,7 +8,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { uint columns; }
 push;
 layout(set = 0, binding = 0) readonly buffer Grid { uint grid[]; };
-layout(set = 0, binding = 1) readonly buffer Expected { float per_unit[]; }; /* one number for each row */
+/* expected number of particles per unit of density, for each row */
+layout(set = 0, binding = 1) readonly buffer Expected { float per_unit[]; };
 layout(set = 0, binding = 2) writeonly buffer Density { float density[]; };
 
 void main()

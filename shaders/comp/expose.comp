@@ -1,6 +1,6 @@
 /* Kernel: histogram of the picture's luminance, for auto exposure. Counts are integers, so every run gives the same
- * histogram. In a large picture one of `skip` pixels is counted. `skip` is coprime to usual widths, so that all
- * columns are sampled. */
+ * histogram. In a large picture the kernel counts only every `skip`-th pixel. `skip` has no common divisor with usual
+ * widths, so that the pixels come from all columns. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

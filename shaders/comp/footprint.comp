@@ -1,5 +1,5 @@
-/* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
- * the sky (shared/lens.h).
+/* Kernel: computes the footprints of each ray. A footprint is the size of the area that the ray stands for. There is
+ * one on the disk for each crossing, and one in the sky (shared/lens.h).
  *
  * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. The map
  * takes a disc of one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest
@@ -13,9 +13,10 @@
  * footprint is KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step
  * still has a size. This term is also of second order.
  *
- * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
- * lattice J is a least-squares fit to the differences to neighbours in this pixel and in adjacent pixels. Its step is
- * the side of a square with the area of one ray. Residuals of the fit are added like the second difference.
+ * Rays on listed pixels are on a square grid or on a lattice (ray/place.glsl). Each pixel's square grid is treated
+ * separately. On a lattice J is a least-squares fit to the differences to neighbours in this pixel and in adjacent
+ * pixels. Its step is the side of a square with the area of one ray. Residuals of the fit are added like the second
+ * difference.
  *
  * Differences are between 32-bit numbers: a footprint below about 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
@@ -32,7 +33,8 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 struct kd_footprint { KD_FOOTPRINT_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_footprint push_; };
-kd_footprint push; /* read before the first branch: after one, lavapipe reads it again for each lane and each use */
+/* copied before the first branch, because lavapipe reads the block again for each lane and each use after a branch */
+kd_footprint push;
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 /* Places of rays that are traced singly (ray/places.glsl). */
 layout(set = 0, binding = KD_FOOTPRINT_PLACES) readonly buffer Places { uint words[]; };
@@ -47,13 +49,13 @@ float map_at(uint at) { return lens[at]; }
 const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* The spot where a ray ends: for a crossing (w, phi), for the sky a unit vector. */
+/* Where a ray ends. For a crossing: (w, phi). For the sky: a unit vector. */
 struct kd_spot {
     vec3 at;
     bool there;
 };
 
-/* Names a spot of a ray: that of crossing n, or the one in the sky. */
+/* Selects one of the ends of a ray: crossing n, or the sky. */
 struct kd_which {
     bool sky;
     uint n;
@@ -72,7 +74,8 @@ kd_spot spot(kd_which which, uint at, bool there)
     return kd_spot(vec3(s * phi.c, s * phi.s, u), there && escapes);
 }
 
-/* Difference from the ray's own spot to another's, with azimuths reduced to half a turn. */
+/* Difference between another ray's spot and the ray's own. Differences of azimuth are reduced to at most half a turn.
+ */
 vec3 apart(kd_which which, kd_spot own, kd_spot other)
 {
     vec3 d = other.at - own.at;
@@ -81,14 +84,14 @@ vec3 apart(kd_which which, kd_spot own, kd_spot other)
     return d;
 }
 
-/* Change from ray to ray along one axis of the picture, and half the second difference. */
+/* Changes of a spot along one axis of the picture: the change from ray to ray, and half the second difference. */
 struct kd_change {
     vec3 slope, bend;
     bool there;
 };
 
-/* The change along the axis for the ray at index `place` of `places`. step_: difference of the indices of neighbours
- * in a plane of the map. */
+/* The change along an axis at one ray. place: the ray's index along the axis; places: number of rays along it. step_:
+ * distance of neighbouring rays in a plane of the map. */
 kd_change change(kd_which which, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
@@ -98,14 +101,15 @@ kd_change change(kd_which which, kd_spot own, uint at, uint place, uint places, 
             other = spot(which, has_p ? at + p * step_ : at, has_p);
     vec3 d = apart(which, own, near), e = apart(which, own, other);
     float fo = float(o), fp = float(p), unit = 1.0 / (fo * fp * (fp - fo));
-    if (near.there && other.there) /* derivatives of the parabola through all three */
+    if (near.there && other.there) /* slope and curvature of the parabola through all three spots */
         return kd_change((fp * fp * d - fo * fo * e) * unit, (fo * e - fp * d) * unit, true);
     if (near.there)
         return kd_change(fo * d, vec3(0.0), true);
     return kd_change(fp * e, vec3(0.0), other.there && abs(p) == 1);
 }
 
-/* Metric at a spot: converts steps of w and phi to M; for the sky they are in radians. */
+/* Metric at a spot: factors that convert steps of w and phi to lengths in M. For the sky the factors are 1, and lengths
+ * are in radians. */
 vec3 scale(kd_which which, kd_spot own)
 {
     float r = 1.0 / own.at.x;
@@ -132,15 +136,15 @@ kd_oval on_grid(kd_which which, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d. Also the number of neighbours that lack
- * the crossing, or the end, that the ray has. */
+/* Sums for the least-squares fit of a linear map d(v): the sums of v v^T, of d v^T and of d.d. missing: number of
+ * neighbours that do not have the crossing, or the end in the sky, that the ray has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
     float dd, count, lacks;
 };
 
-/* True if the left and the right adjacent pixel are listed too; they are then adjacent in the list. */
+/* True if the left pixel, and the right pixel, is in the list too. Such a pixel is adjacent in the list as well. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -151,7 +155,8 @@ kd_beside beside(uint pixel)
     return kd_beside(before == own - vec2(1.0, 0.0), after == own + vec2(1.0, 0.0));
 }
 
-/* Adds a neighbour of ray k, at the vector (vx, vy), to the fit. The neighbour may be in an adjacent pixel. */
+/* Adds one neighbour of a ray to the fit. (vx, vy): vector from the ray to the neighbour, which may be in an adjacent
+ * pixel. */
 void count(inout kd_fit fit, kd_which which, kd_spot own, vec3 m, kd_beside all, uint at, uint k, int vx, int vy)
 {
     int row = int((k * GENERATOR + SHIFT) % max(CRITICAL, 1)), x = int(k) + vx, y = row + vy;
@@ -185,7 +190,7 @@ kd_oval on_lattice(kd_which which, uint at)
     BOTH(X2, Y2);
     BOTH(X3, Y3);
     BOTH(X4, Y4);
-    /* area of one ray; det is at least area^2, or 0 */
+    /* area of one ray; the determinant det is at least area^2, unless the neighbours lie on a line */
     float area = float(CRITICAL), det = fit.xx * fit.yy - fit.xy * fit.xy;
     vec3 i = (fit.yy * fit.dx - fit.xy * fit.dy) / det, j = (fit.xx * fit.dy - fit.xy * fit.dx) / det;
     float left = max(fit.dd - dot(i, fit.dx) - dot(j, fit.dy), 0.0) / max(fit.count, 1.0);
@@ -195,8 +200,8 @@ kd_oval on_lattice(kd_which which, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* The four rays of a pixel without adjacent pixels lie on a line. The change along that line is then used for
-     * all directions. */
+    /* A pixel without adjacent listed pixels may have only four rays, which lie on a line. The change along that line
+     * is then used for all directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
                                                         : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),
@@ -214,11 +219,11 @@ kd_oval footprint(kd_which which, uint at, kd_grid grid)
 /* Stores through max because of lavapipe, as in lens_fill.comp. */
 void put(uint at, float value) { lens[at] = max(value, -KD_FOOTPRINT_EDGE); }
 
-/* Marks the footprints of a crossing, or of the sky, as missing, because neighbouring rays are not traced yet. */
+/* Marks a footprint as missing, because the neighbouring rays are not traced yet. */
 void mark(uint at) { lens[at + kd_plane(FIRST) * push.stride] = KD_FOOTPRINT_WANTED; }
 bool is_marked(uint at) { return map_at(at + kd_plane(FIRST) * push.stride) == KD_FOOTPRINT_WANTED; }
 
-/* The ray of this invocation; false if there is none. */
+/* Finds the ray of this invocation. Returns false if the invocation has no ray. */
 bool this_ray(out kd_grid grid, out uint at)
 {
     uint x = gl_GlobalInvocationID.x, y = push.first + gl_WorkGroupID.y;
@@ -248,7 +253,8 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        bool crosses = ORDERS > 0u && map_at(at) > 0.0; /* the orders of a ray's crossings have no gaps */
+        /* orders have no gaps, so a ray without a first crossing has no crossing */
+        bool crosses = ORDERS > 0u && map_at(at) > 0.0;
         do {
             if (crosses) {
                 kd_oval o = footprint(kd_which(false, n), at, grid);

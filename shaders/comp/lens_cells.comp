@@ -3,14 +3,14 @@
  * further rays, the cell is smooth. Otherwise its four quarters become cells of the next level, and their nodes are
  * listed. The rays of a cell of the last level are traced singly.
  *
- * The map is analytic in a cell except where orders or fates change. Such changes show in the states of the nodes, and
- * in R at the turning point, which vanishes where fates change. The decision depends on the cell's own rays only, so
- * that a tile has the same cells as its picture.
+ * The map is analytic in a cell except where orders or fates change. Such changes show in two ways: the nodes have
+ * different states, or R at the turning point nearly vanishes, because R is 0 where fates change. The decision depends
+ * on the cell's own rays only. So a tile of a picture is divided in the same way as the whole picture.
  *
  * The tolerance is relative, for w, angles and directions alike. Where the map is steep, the rounding of the camera's
  * directions to 32 bits moves the map by more than the tolerance. A test against the tolerance would only measure this
- * noise. So the tolerance is multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice
- * as far from the hole. */
+ * noise. So where the map is steep, the tolerance is larger. Its factor is CONDITION times the change of ln w, or of
+ * the angle, between a direction and one twice as far from the hole. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -29,13 +29,14 @@ layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
 
 const float CONDITION = 0.3;
 
-/* Start of the list of the cells of a level; each list is four times as long as that of the level before. places_of:
- * start of the list of places. */
+/* queue_of: offset of the list of cells of a level; each list is four times as long as that of the level before.
+ * places_of: offset of the list of places. */
 uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
 uint places_of_nodes() { return units_of(2u); }
 uint places_alone() { return places_of_nodes() + push.room; }
 
-/* Reserves n entries of the list whose counts are at `counts`. Each workgroup processes `each` entries. */
+/* Reserves n entries in a list and returns the index of the first one. counts: offset of the list's counts. each:
+ * number of entries that a workgroup processes. */
 uint take(uint counts, uint n, uint each)
 {
     uint first = atomicAdd(words[counts + 3u], n);
@@ -43,7 +44,7 @@ uint take(uint counts, uint n, uint each)
     return first;
 }
 
-/* True if a cell overlaps the picture, or the rows of the picture that are requested. */
+/* True if a cell overlaps the requested rows of the picture. */
 bool is_wanted(uvec2 corner, uint side)
 {
     ivec2 low = place_of(corner), high = low + ivec2(int(side));
@@ -57,15 +58,16 @@ void list_cell(uint level, uvec2 cell)
         words[queue_of(level) + take(KD_SAMPLE_CELLS + 4u * (level - 1u), 1u, KD_GROUP_SIZE)] = cell.x | (cell.y << 16);
 }
 
-/* The two rays that check a cell. They are next to the middles of two sides, where polynomials have the largest errors.
- * On all levels but the last they are at even places. */
+/* Ray i of the two rays that check a cell. They lie next to the middles of two sides, where polynomials have the
+ * largest errors. Except on the last level, both are at even places. */
 uvec2 check_of(uvec2 corner, uint side, uint i)
 {
     return corner + (i == 0u ? uvec2(side / 8u, side / 2u) : uvec2(side / 2u, side / 8u));
 }
 
-/* New nodes when a cell is divided. Among 9 x 9 places there are 16 on the edge, which adjacent cells may list as well.
- * There are 38 inside, which only this cell lists; two of them are the rays that checked the cell. */
+/* Places of the nodes that are new when a cell is divided, among the 9 x 9 places of its four quarters. edge_of_nine:
+ * 16 places on the edge, which adjacent cells may list as well. within_nine: 38 places inside, which only this cell
+ * lists; two of them are the rays that checked the cell. */
 uvec2 edge_of_nine(uint k)
 {
     uint along = 2u * (k % 4u) + 1u, far = 8u * (k / 4u & 1u);
@@ -80,7 +82,7 @@ uvec2 within_nine(uint k)
     uint i = k < 31u ? k - 27u : k < 34u ? k - 30u : k - 34u;
     return uvec2(2u * i + 1u, k < 31u ? 2u : k < 34u ? 4u : 6u);
 }
-/* Nodes of a new block, among 5 x 5 places: 16 on the edge and 9 inside. */
+/* Places of the nodes of a new block, among 5 x 5 places. edge_of_five: 16 on the edge. within_five: 9 inside. */
 uvec2 edge_of_five(uint k)
 {
     uint i = k % 4u, side = k / 4u;
@@ -88,15 +90,15 @@ uvec2 edge_of_five(uint k)
 }
 uvec2 within_five(uint k) { return uvec2(k % 3u + 1u, k / 3u + 1u); }
 
-/* Makes the ray at place `at` a node. word: the index's word for that place. */
+/* Makes the ray at place `at` a node. word: offset of the index entry for that place. */
 void make_node(uint node, uint word, uvec2 at)
 {
     number[word] = node + 1u;
     words[places_of_nodes() + node] = kd_place_word(at);
 }
 
-/* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
- * block. stage: the stage at which these rays are traced. */
+/* Lists the missing nodes of a block, or of the four quarters of a divided cell. Also lists the two rays that check the
+ * block or each quarter. stage: the stage at which these rays are traced. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -128,8 +130,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     } while (++k < 2u * cells * cells);
 }
 
-/* A node that is compared with the check of a cell. Such nodes lie along the cell's middle row or middle column.
- * i = 5 is the checking ray, which lies next to the first of them. */
+/* The node i along the cell's middle row or middle column, for comparison with the checking rays. i = 5 is the checking
+ * ray, which lies next to the first node of that line. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -138,9 +140,9 @@ uint node_along(uvec2 corner, uint side, uint axis, uint i)
     return number[word] - 1u;
 }
 
-/* Results of both lines for a quantity. They are the largest error of the polynomials at the two rays, for each
- * component and in total; the sum of the squared slopes in the middle; and the largest second difference between
- * quarters of the side. */
+/* Results for one quantity, from both lines of nodes. off: largest error of the polynomials at the two checking rays,
+ * for each component; apart: the same for the whole vector. slope2: sum of the squared slopes in the middle. bend:
+ * largest second difference between quarters of the side. */
 struct kd_line_told {
     vec3 off, slope2, bend;
     float apart;
@@ -161,8 +163,8 @@ void tell(inout kd_line_told t, vec3 v[6])
     t.bend = max(t.bend, max(max(abs(a - 2.0 * b), abs(b + d)), abs(e - 2.0 * d)));
 }
 
-/* VALUE: an expression for `node`. Both lines and all their nodes share the same code, which a driver then compiles
- * once. */
+/* Evaluates both lines of nodes for a quantity. VALUE: expression of that quantity for `node`. All nodes share one
+ * piece of code, so that a driver compiles it once. */
 #define KD_ALONG_BOTH(told, VALUE) \
     uint axis = 0u; \
     [[dont_unroll]] do { \
@@ -177,8 +179,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     } while (++axis < 2u);
 
-/* Distance of the cell's middle from the direction to the hole, in steps between rays. For a sphere or a dome this
- * distance is taken as one radian. Rounding moves a ray by a fraction of this distance. */
+/* Distance of the cell's middle from the direction to the hole, in steps between rays. For a sphere or a dome one
+ * radian is used instead. Rounding of a direction moves its ray by an amount proportional to this distance. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));
@@ -191,9 +193,9 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
-/* True if the nodes of a cell are so far apart that an island of another image order may lie between them. An observer
- * among the photon orbits or closer sees such islands, a few degrees wide, next to the horizon of a hole that spins
- * fast. No smooth function of the nodes shows them. */
+/* True if an island of another image order may lie between the nodes of a cell. An observer among the photon orbits or
+ * closer sees such islands, a few degrees wide, next to the horizon of a hole that spins fast. The values at the nodes
+ * do not reveal an island that fits between them. */
 bool islands_fit_in(uint side)
 {
     const float AMONG_ORBITS = 0.25, APART = 2.0 * KD_PI / 180.0;
@@ -205,9 +207,9 @@ bool islands_fit_in(uint side)
     return 0.25 * float(side) * ray > APART;
 }
 
-/* True if the function that vanishes where fates change is nonzero between the nodes. `least` is the function's least
- * value at the nodes. Between nodes a curve deviates from a straight line by an eighth of its second difference. The
- * margin is four times that, plus twice the error of the polynomials. */
+/* True if R at the turning point, which vanishes where fates change, is certainly nonzero between the nodes. least: its
+ * least value at the nodes. Between nodes a curve deviates from a straight line by an eighth of its second difference.
+ * The margin is four times that deviation, plus twice the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -215,8 +217,9 @@ bool curve_is_far(uvec2 corner, uint side, float least)
     return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-/* True if the polynomials predict both rays: w relative to w itself, an angle, and a slope relative to the steepest
- * slope. far: distance of the two rays from the nodes, in quarters of the side. */
+/* True if the polynomials predict both checking rays within the tolerance. Errors of w are relative to w, errors of a
+ * slope are relative to the steepest slope, and errors of angles are absolute. far: distance of the cell from the
+ * direction to the hole, in quarters of the side. */
 bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -262,7 +265,7 @@ bool is_smooth(uvec2 corner, uint side, out float state)
     return same && (!SKY || captured(state) || sky_is_smooth(corner, side, far));
 }
 
-/* Lists the units of one kind (crossings or the sky) of a smooth cell. */
+/* Lists the units of one kind (crossings or the sky) of a smooth cell, to be filled by interpolation. */
 void list_units(uint kind, uvec2 corner, uint level)
 {
     const uint n = side_of(level) / 8u,
@@ -286,7 +289,7 @@ void follow_alone(uvec2 corner)
     } while (++k < n.x * n.y);
 }
 
-/* Processes a cell of a level; at level 0 a block, which becomes a cell of level 1. */
+/* Processes a cell of a level. At level 0 the cell is a block, which becomes a cell of level 1. */
 void look_at(uvec2 cell, uint level)
 {
     const bool begins = level == 0u;
@@ -314,7 +317,7 @@ void main()
     push = push_;
     cam = camera_;
     uint i = gl_GlobalInvocationID.x;
-    if (push.level == 0u && i == 0u) /* sets the numbers of workgroups along the other axes */
+    if (push.level == 0u && i == 0u) /* the dispatch has one workgroup along each of the other axes */
         [[dont_unroll]]
         for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
             words[4u * k + 1u] = 1u;

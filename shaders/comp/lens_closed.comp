@@ -1,13 +1,13 @@
 /* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits. It computes the
  * radii of the crossings. If the scene requires them, it also computes the azimuths and radial slopes of the crossings,
- * a ray's fate, and the direction in which the ray escapes. It makes all planes of shared/lens.h except the delay and
- * alpha.
+ * a ray's fate, and the direction in which the ray escapes. It writes all planes of shared/lens.h except those of the
+ * delay and of alpha.
  *
  * The times at which a ray crosses the plane are known (polar.glsl), and from them its radius (arc.glsl). The azimuth
- * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The nodes of the
- * quadrature are reached from the crossings at both ends. Their distances in time from these crossings are the same for
- * all half periods but the first. The ray escapes when w vanishes, which is known from w and w' at its last
- * crossing. */
+ * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The positions at
+ * the nodes of the quadrature are computed from the nearer of the two crossings. The time from that crossing to the
+ * node is the same in all half periods except the first. The ray escapes when w vanishes, which is known from w and w'
+ * at its last crossing. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -33,24 +33,25 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/open.glsl"
 #include "ray/node.glsl"
 
-const uint MORE = 12; /* half periods followed after the last order; rays that circle longer are within a relative
-                       * distance of 1e-13 of the critical curve */
+/* number of half periods followed after the last order; rays that circle even longer are within a relative
+ * distance of 1e-13 of the critical curve */
+const uint MORE = 12;
 
-/* A ray between two crossings. */
+/* The part of a ray between two crossings. */
 struct kd_leg {
-    kd_centre last; /* the last crossing, or the start        */
-    kd_centre to;   /* the next crossing of the plane; meaningful only if the ray is still outside then (alive) */
+    kd_centre last; /* centre at the last crossing, or at the start */
+    kd_centre to;   /* centre at the next crossing; meaningful only if the ray is still outside there (see `alive`) */
     kd_state next;  /* state of the ray at the next crossing */
-    bool alive;     /* the ray is still outside at the next crossing */
+    bool alive;     /* true if the ray is still outside at the next crossing */
     float psi, chi; /* psi: azimuth at the next crossing without drag; chi: drag up to `last` */
     float drag;     /* drag from `last` to the next crossing */
     float tau;      /* time of the next crossing */
-    float side;     /* 1: the ray leaves the last crossing upwards; -1: downwards */
-    bool crossed;   /* `last` is not the start any more */
+    float side;     /* direction at the last crossing: 1 upwards, -1 downwards */
+    bool crossed;   /* true if `last` is a crossing, not the start */
 };
 
-/* Upper bound of the time to the horizon; for a ray that starts outwards, of the time to infinity. It follows from the
- * least value of R. */
+/* Upper bound of the time until the ray reaches the horizon or, if it starts outwards, infinity. The bound follows from
+ * the least value of R on the ray. */
 float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -69,14 +70,14 @@ bool goes_on(kd_leg leg, bool falls, float limit)
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether rounding may have created or removed the leg's next crossing. The drag is computed only if something else
- * needs it, because it takes half of the kernel's time. */
+/* True if rounding may have created or removed the leg's next crossing. This test does not use the drag, which takes
+ * half of the kernel's time and is computed only if something else needs it. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
 }
 
-/* Advances by half a period. nodes, arc, z: for the time of half a period. */
+/* Advances the leg by half a period. nodes, arc, z: values for the time of half a period. */
 void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_arc arc, float z, float psi, float tau,
            float edge, float limit)
 {
@@ -91,16 +92,17 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time. Where Q nearly vanishes, rounding
- * decides (polar.glsl). u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so that the greatest speed is s / 2 sqrt(e). The
- * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane. Its half periods
- * are counted as usual, although it crosses nothing. */
+/* True if polar.first, the time of the first crossing, is valid. If A > 0 and Q < 0 the ray never reaches the plane.
+ * Where Q nearly vanishes, the sign of Q is only rounding (polar.glsl). Then the time is compared with a lower bound:
+ * u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so the ray cannot reach the plane sooner than at the speed s / 2 sqrt(e).
+ * If A < 0 and Q = 0, the ray stays in the plane. Its half periods are counted as usual, although it crosses nothing.
+ */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
 }
 
-/* Stores crossing n; zeros if there is none. */
+/* Stores crossing n, or zeros if there is none (any is false). */
 void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
 {
     float w = any ? leg.next.w * drag.unit : 0.0;
@@ -113,8 +115,8 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Stores where the ray ends. Returns true if that is certain. nodes, z: of the leg that the ray does not complete.
- * before: time from the last crossing to the start, if the leg begins with the start. */
+/* Stores where the ray ends. Returns true if that end is certain. nodes, z: values for the leg that the ray does not
+ * complete. before: if the leg begins with the start, the time from the last crossing to the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
 {
@@ -155,7 +157,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* a nearby ray is used, because in the plane the azimuth has no start */
+    kd_ray tilted = ray; /* a slightly tilted ray is used, because the azimuth has no start for a ray in the plane */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -185,8 +187,8 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. This divisor is at least a.scale / sqrt(3),
-     * and at least 1. The scale of w is at most the scale at the horizon. */
+    /* Far out, w varies on the scale of E divided by the larger of E and |(l, p)|. That larger value is at least
+     * a.scale / sqrt(3), and at least 1. The scale of w is at most the scale at the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);

@@ -1,8 +1,8 @@
 /* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl). The polynomials through the nodes give
- * w, azimuth and slope of each ray's crossings, or where in the sky it ends. The polynomials' derivatives give the
- * footprints. An invocation processes a column of rays of a cell. It reduces 25 nodes to five numbers for the column,
- * and these five to one number for each ray. All values are relative to the cell's middle node, so that rounding is
- * relative to the change within the cell.
+ * w, azimuth and slope of each ray's crossings, and the direction in which the ray escapes. The polynomials'
+ * derivatives give the footprints. An invocation processes a column of rays of a cell. It reduces 25 nodes to five
+ * numbers for the column, and these five to one number for each ray. All values are relative to the cell's middle node,
+ * so that rounding is relative to the change within the cell.
  *
  * The map is already initialised: the planes of w are 0, and all fates are captured. */
 #version 450
@@ -32,10 +32,10 @@ layout(set = 0, binding = 4) readonly buffer Sample { uint words[]; };
 
 const bool FOOTPRINT = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u, SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u,
            SKY_FOOTPRINT = (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u;
-const bool STEEP = OF_SKY ? SKY_FOOTPRINT : FOOTPRINT; /* true: derivatives are needed */
+const bool STEEP = OF_SKY ? SKY_FOOTPRINT : FOOTPRINT; /* true if footprints, and so derivatives, are needed */
 
-/* Weights of the five nodes along a line at t quarters of the side (Lagrange's polynomials), and for the derivative
- * there. */
+/* Weights of the five nodes along a line at t quarters of the side (Lagrange's polynomials). value: weights for the
+ * value at t. slope: weights for the derivative at t. */
 struct kd_weights { float value[5], slope[5]; };
 
 kd_weights weigh(float t)
@@ -62,7 +62,8 @@ struct kd_column {
     kd_weights by;
 };
 
-/* A quantity in a column: its value in the five rows, and its change from column to column. */
+/* A quantity reduced to a column: value: its value in the five rows of nodes. slope: its change from column to column
+ * in these rows. */
 struct kd_lines { vec3 value[5], slope[5]; };
 
 vec3 along(float weight[5], vec3 v[5])
@@ -89,11 +90,11 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* Stores through max because of lavapipe. If a value is only stored, lavapipe computes it in the loop that stores it,
- * lane by lane. It computes the result of max for all lanes at once. */
+/* Stores the result of max, because this is faster on lavapipe. lavapipe computes a plain value in the loop that stores
+ * it, lane by lane. It computes the result of max for all lanes at once. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
-/* The cell's polynomials at a ray: the value, and its change from ray to ray. */
+/* The cell's polynomials at a ray. v: the value. i, j: changes of the value from ray to ray along x and y. */
 struct kd_patch_at { vec3 v, i, j; };
 
 void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
@@ -122,8 +123,8 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* The rays of a column: index of the first ray in a plane, and the place of that ray in quarters of the cell; number of
- * rays; spacing of the rays. */
+/* The rays of a column: index of the first ray in a plane; place of the first ray in quarters of the cell; number of
+ * rays; and spacing of the rays. */
 struct kd_rows {
     uint at, n;
     float from, unit;
@@ -173,7 +174,7 @@ void main()
     const float state = state_of(c.node[12]);
     const uint last = OF_SKY ? 1u : min(crossings_of(state), ORDERS);
     uint n = 0u;
-    do { /* this loop tests at its end, as those in lens_closed.comp do */
+    do { /* this loop tests at its end, for the reason that lens_closed.comp gives */
         vec3 middle = value_of(c.node[12], n);
         fill_rows(lines_of(c, n, middle), rows, middle, n, captured(state));
     } while (++n < last);

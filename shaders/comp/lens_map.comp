@@ -7,7 +7,7 @@
  * needs no search, and its invocations do not diverge. From its last crossing on, a ray that escapes is followed by the
  * full vector equation of the angles.
  *
- * It makes all planes of shared/lens.h except the delay and alpha. */
+ * It writes all planes of shared/lens.h except those of the delay and of alpha. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -34,20 +34,23 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/node.glsl"
 #include "ray/escape.glsl"
 
-/* Boole's weights for five nodes. */
+/* Weights of Boole's rule at its five nodes, times 22.5. */
 float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 
 /* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    float part, drag; /* part: the steps before the turn, 0 to 4. drag: the group's result by Boole's rule, which the
-                       * result of kd_drag_about_turn replaces */
-    float w;          /* w where the ray turns */
-    bool any, last;   /* last: the last group of its half period */
+    /* part: number of steps before the turn, 0 to 4. drag: the group's frame dragging by Boole's rule, to be
+     * replaced by the result of kd_drag_about_turn */
+    float part, drag;
+    float w; /* w of the turning point */
+    /* any: true if there is such a group. last: true if the group is the last one of its half period */
+    bool any, last;
 };
 
-/* Frame dragging over a group of steps in which the ray turns. It has two parts: in ingoing coordinates up to the turn,
- * and in outgoing ones after it. In its own part each integrand is smooth and has no pole. */
+/* Frame dragging over a group of steps in which the ray turns. The integral has two parts: up to the turn in ingoing
+ * coordinates, and after it in outgoing coordinates. In the coordinates of its part each integrand is smooth and has no
+ * pole. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
@@ -61,7 +64,7 @@ float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
         t.w = j == 5 ? z.w : t.w;
         float beside = INGOING || (k > 0 && k < 4) || k == (j < 5 ? 4 : 0) || (j == 9 && t.last) ? 0.0
                        : j == 0 ? -7.0
-                                : 7.0; /* adjacent groups share a node */
+                                : 7.0; /* adjacent groups share a node, whose weight is 14 */
         sum += (of * kd_boole(k) + beside) * kd_drag_ingoing(m, z, e, cam.spin, cam.root, j < 5 ? -1.0 : 1.0);
     }
     return sum;
@@ -105,12 +108,13 @@ void main()
     bool alive = polar.crosses && !dark;
     uint crossings = 0u;
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
-    /* lost: rounding error of R; the error of the steps is measured at each crossing */
+    /* lost: rounding error of R. The error of the steps is measured later, at each crossing. */
     float lost = kd_start_noise(m, start, rounding);
     bool open = !dark && !kd_is_decided(barrier, start, lost);
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
-    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* planes of crossings come first */
+    /* clears the planes of crossings, which come first */
+    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++)
         lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
@@ -138,7 +142,7 @@ void main()
                     part = float(j) + speed / (speed - y.dw);
                 if (INGOING && y.w > cam.horizon && y.dw < 0.0)
                     y.dw = kd_leaving(m, y.w, ray.e);
-                /* Beyond the horizon the values are meaningless, but must stay finite. */
+                /* Beyond the horizon the values have no meaning, but they must stay finite. */
                 y.w = clamp(y.w, -2.0, deepest);
                 low = min(low, y.w);
                 /* a ray on its way out may be inside the horizon */
@@ -202,8 +206,9 @@ void main()
         open = end.fate == KD_FATE_UNDECIDED;
     }
     float curve = barrier.r;
-    if (INGOING && start.w >= cam.horizon) { /* the product also vanishes where the origin of light changes from inside
-                                                to outside (kd_from_outside) */
+    /* R is also compared where the origin of light changes from inside to outside; the product vanishes there
+     * (kd_from_outside) */
+    if (INGOING && start.w >= cam.horizon) {
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
     }
     kd_finish_ray(open, at, crossings, dark || !kd_escapes(barrier, start), curve);

@@ -1,5 +1,5 @@
-/* Kernel: computes the particles of the disk at one time, each from its number in closed form. It adds them to the grid
- * or writes them to a list (src/render/emit/particles.h).
+/* Kernel: computes the positions of the disk's particles at one time. Each position follows from the particle's number
+ * in closed form. The kernel adds the particles to the grid or writes them to a list (src/render/emit/particles.h).
  *
  * Phases are 32-bit fractions of a turn, so that sums wrap exactly. A particle's weight is divided among the four nodes
  * around it. A word of the grid has 16 bits for its own node and 16 bits for the node to the right; particles between
@@ -22,8 +22,8 @@ layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
-/* Cosine and sine of a phase, times a random amplitude in [0, 1]. The points (amplitude, phase) are uniform in the unit
- * disc. */
+/* Cosine and sine of a phase, times a random amplitude in [0, 1]. Over all particles, the points (amplitude, phase) are
+ * uniform in the unit disc. */
 kd_phasor swing(uint random, uint phase)
 {
     kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
@@ -36,7 +36,7 @@ kd_phasor swing(uint random, uint phase)
 /* Adds a particle to the grid that starts at word `first`. */
 void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
-    if (row < 0.0 || row > float(rows)) /* skipped, because the particle is beyond the edge at present */
+    if (row < 0.0 || row > float(rows)) /* skipped, because the particle is at present beyond the edge of the grid */
         return;
     uint i = min(uint(row), rows - 1), j = phi >> (32 - columns_log2);
     uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;
@@ -47,8 +47,9 @@ void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
     atomicAdd(grid[at + (1 << columns_log2)], (upper - upper_right) | upper_right << 16);
 }
 
-/* A particle that has reached the end of the plunge starts again, on another lap and so at another azimuth. The grid
- * extends beyond the ends of the curve, where it holds particles of the previous and next laps. */
+/* Random number of a plunging particle on a lap. A particle that reaches the end of the plunge starts again on the next
+ * lap, at another azimuth. The grid extends beyond both ends of the curve, where it holds particles of the previous and
+ * next laps. */
 uint launch(uint random, uint lap) { return kd_hash(random + kd_hash(lap)) + push.turn; }
 
 void plunge(uint random, uint n)
@@ -76,7 +77,7 @@ void main()
         plunge(random, n);
         return;
     }
-    /* Each invocation has the same number of particles. Particles are in order of radius, so that neighbouring
+    /* Each invocation processes the same number of particles. Particles are in order of radius, so that neighbouring
      * invocations access the same part of the grid. */
     umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low);
     uint phi = random + guides[k].phi;

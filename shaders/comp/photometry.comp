@@ -1,5 +1,5 @@
-/* Kernel: sums the light of a picture for its flux and centroid. Over pixels at x and y steps from the middle, of
- * luminance Y, and with f = 1/|(1, x step, y step)| (1 in the image plane), it computes
+/* Kernel: sums the light of a picture for its flux and centroid. A pixel x and y steps from the middle has the
+ * luminance Y. With f = 1/|(1, x step, y step)|, or f = 1 in the image plane, the kernel computes
  *
  *   sum of Y f^3, of Y f^4, of Y f^4 x, of Y f^4 y,
  *
@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
 
-/* A compensated sum: the sum so far, and the amount by which rounding has made it too large. */
+/* A compensated sum. value: the sum so far. lost: the amount by which rounding has made it too large. */
 struct sum4 { precise vec4 value, lost; };
 
 sum4 add(sum4 s, vec4 term)

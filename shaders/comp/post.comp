@@ -57,7 +57,7 @@ vec3 aces(vec3 c)
     const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
     const mat3 outof = mat3(1.60475 / d, -0.10208 / d, -0.00327 / d, -0.53108 / d, 1.10813 / d, -0.07276 / d,
                             -0.07367 / d, -0.00605 / d, 1.07602 / d);
-    c = into * min(c, vec3(1e6)); /* the curve squares this, so it is limited */
+    c = into * min(c, vec3(1e6)); /* limited, because the curve squares it */
     c = (c * (c + 0.0245786) - 0.000090537) / (c * (c + 0.4329510 / d) + 0.238081 / d);
     return outof * c;
 }
@@ -75,10 +75,10 @@ vec3 neutral(vec3 c)
     return peak < start ? c : bright;
 }
 
-/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s =
- * c^(1/4). This is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
- * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of 16
- * bits. */
+/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. The power 1.055 c^(1/2.4) - 0.055 is approximated by a
+ * polynomial in s = c^(1/4) for c from 0.0031308 to 1. Among polynomials that are 1 at c = 1, this one has the least
+ * largest error, 3.4e-7. 2e-7 is added, so that white is 65535 in spite of roundoff. The total error is below 5.4e-7, a
+ * thirtieth of a step of 16 bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);
@@ -94,8 +94,8 @@ vec3 srgb(vec3 c)
 }
 
 #ifdef KD_HEAT
-/* The colour of a luminance in [0, 1], times LEVELS. It is linear between the entries of the table, which are encoded
- * as sRGB. */
+/* The false colour of a luminance in [0, 1], times LEVELS. The table's entries are encoded as sRGB; between entries the
+ * colour is linear. */
 vec3 heat(float y)
 {
     float at = clamp(y, 0.0, 1.0) * float(textureSize(colours) - 1);
@@ -104,10 +104,11 @@ vec3 heat(float y)
 }
 #endif
 
-/* Place of a pixel in the picture, as floats, which are exact. */
+/* Column and row of a pixel in the picture. They are floats, which hold such integers exactly. */
 struct place { float x, y; };
 
-/* The quotient as a float is wrong by at most one, because places are below 2^30 and rows below 2^15. */
+/* Place of pixel i. The row is a quotient computed in floats, which is wrong by at most one, because places are below
+ * 2^30 and rows below 2^15. The code corrects it. */
 place place_of(uint i)
 {
     int n = int(i), width = int(push.pixels_x), y = int(float(n) * (1 / float(width))), x = n - y * width;
@@ -131,7 +132,7 @@ float threshold(place at)
 struct spread { vec3 a, b, c, d; };
 
 #ifdef KD_BLOOM
-/* Spread light that arrives at a pixel. */
+/* Light that other pixels spread to this pixel. */
 vec3 arriving(place at)
 {
     float u = (at.x + 0.5) * push.scale_x, v = (at.y + 0.5) * push.scale_y;
@@ -152,7 +153,8 @@ vec3 column(ivec3 rows, int x, vec3 b)
     return b.x * cell(rows.x + at) + b.y * cell(rows.y + at) + b.z * cell(rows.z + at);
 }
 
-/* If all four pixels are adjacent and the cells are larger, four or five columns of cells cover them. */
+/* The four pixels of an invocation. If they are adjacent and cells are larger than pixels, four or five columns of
+ * cells cover them, and are read once. */
 spread arriving_all(place first, place second, place third, place fourth)
 {
     if (COLUMNS == 0)
@@ -185,13 +187,14 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     c = srgb(clamp(c, 0.0, 1.0));
 #endif
     float spread = 0.998 * push.dither;
-    /* truncation rounds down, because the value is positive */
+    /* adds up to one half or a dither, then truncates, which rounds down because the value is positive */
     return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS);
 }
 
 bool is_number(vec3 c) { return kd_is_finite(c.r) && kd_is_finite(c.g) && kd_is_finite(c.b); }
 
-/* The number of the four pixels whose light is not finite. Of the last four only `left` are in the band. */
+/* How many of the four pixels have light that is not finite. left: number of pixels from here to the end of the band;
+ * later ones are not counted. */
 uint without_number(vec4 a, vec4 b, vec4 c, uint left)
 {
     return (is_number(a.xyz) ? 0u : 1u) + (left < 2u || is_number(vec3(a.w, b.xy)) ? 0u : 1u) +

@@ -6,24 +6,24 @@
  * of the steps. The variation of w with its start gives the error of rounding. An embedded pair would be cheaper, but
  * its estimate is a hundred times looser (docs/rays.md).
  *
- * Azimuth: psi + chi. polar_azimuth.glsl integrates the peak of psi' = L/(1 - u^2) near the axis exactly; the rest is L
- * e / (sqrt(c) (sqrt(y) + sqrt(c))), y = b + e u^2, c = b + e.
+ * The azimuth is psi + chi. psi' = L/(1 - u^2) has a peak near the axis, which polar_azimuth.glsl integrates exactly.
+ * The rest of psi' is L e / (sqrt(c) (sqrt(y) + sqrt(c))), with y = b + e u^2 and c = b + e.
  *
- * Delay: t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2 - q^2 (1 + 2w)) - a L (1 + a^2 w^2)] / Delta_w + a (L - a E
- * (1 - u^2)), Delta_w = 1 - 2w + (a^2 + q^2) w^2. The first two terms grow without bound towards infinity, on the way
- * in and on the way out. But
+ * The delay t has the derivative t' = E/w^2 + 2E/w + [E (4 + a^2 - 2a^2 w + a^4 w^2 - q^2 (1 + 2w)) - a L (1 + a^2
+ * w^2)] / Delta_w + a (L - a E (1 - u^2)), Delta_w = 1 - 2w + (a^2 + q^2) w^2. The first two terms grow without bound
+ * towards infinity, at both ends of the ray. They can be written as derivatives and smooth terms:
  *
  *   E^2/w^2 = (-w'/w)' + K w - D w^2   and   E/w = -(ln((E + w')/w))' + w^2 (K - D w)/(E + w'),
  *
- * so that the remaining integrand is smooth, and for an observer at infinity r_o + 2 ln r_o can be subtracted exactly.
+ * The remaining integrand is smooth. For an observer at infinity, r_o + 2 ln r_o is subtracted exactly.
  *
  * t' has a pole at the horizon. A ray that falls in therefore uses ingoing time: with D = Delta_w and W as in
  * radial_step.glsl
  *
  *   t' = (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) + a (L - a E (1 - u^2)),
  *
- * where the first term is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall and the rest has no pole. A ray that comes
- * from next to the horizon uses outgoing time, with -w' for w'. */
+ * The part of the first term with w' is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, and the rest has no pole. A ray
+ * that comes from next to the horizon uses outgoing time, in which -w' replaces w'. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -44,7 +44,8 @@ layout(push_constant) uniform Push { uint first, count; }
 push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
-    float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
+    /* parameters of the hole and of the observer; epsilon: unit roundoff */
+    float spin, u, s, horizon, root, w0, epsilon;
 #define F(name) float name;
     KD_HOLE_MORE_FIELDS_(F)
 #undef F
@@ -66,7 +67,7 @@ kd_state radial(kd_full p)
     return y;
 }
 
-/* E + w' for E = 1, without cancellation on the way out. */
+/* E + w' for E = 1, computed without cancellation where the ray goes outwards (w' < 0). */
 float energy_and_fall(kd_geodesic m, float w, float dw)
 {
     return dw > 0.0 ? 1.0 + dw : max(-w * w * (m.a2 + w * (2.0 * m.k - m.d * w)), 1e-30) / (1.0 - dw);
@@ -89,8 +90,8 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     return o;
 }
 
-/* The terms that are integrated in closed form, at one point: their integral is the difference between both ends. At
- * infinity they are 0. */
+/* The terms of the delay that are integrated in closed form, at one point of the ray. Their integral is the difference
+ * of these values at both ends. At infinity they are 0. */
 float delay_edge(kd_geodesic m, kd_state y, float way)
 {
     if (!(y.w > 0.0))
@@ -101,18 +102,18 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimated error of w from the violation of the first integral w'^2 = W^2 - D K w^2. A violation is an error of the
- * velocity, which acts for the time of a half period. */
+/* Estimated error of w, from the violation of the first integral w'^2 = W^2 - D K w^2. The violation is taken as an
+ * error of the velocity w' that acts for the time of a half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_radial_potential(m, y.w, 1.0, cam.spin, cam.root));
     return time * off / max(abs(y.dw), sqrt(off) + 1e-30);
 }
 
-/* For a method of order p, the results with all steps and with half the steps differ by 2^p - 1 times the remaining
- * error, that is, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. This product is
- * a bound even if the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn,
- * for rays that have no crossing to show it. */
+/* Factor for the error of the steps. For a method of order p, the results with all steps and with half the steps differ
+ * by 2^p - 1 times the remaining error, that is, 15 or 63 times. LEFT times this difference is about thirty times the
+ * remaining error. The margin makes it a bound even if the steps are so coarse that this relation fails.
+ * lost_in_a_turn: error of steps of length h over a half turn, for rays that have no crossing to show it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -130,7 +131,7 @@ void main()
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_radial_potential(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 
-    /* psi without its smooth part; see polar_azimuth.glsl */
+    /* dp: derivative of psi without its smooth part (polar_azimuth.glsl) */
     float dp = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -ray.p : ray.p;
     float root = sqrt(polar.b + m.energy2 * cam.u * cam.u), side = ray.l < 0.0 ? -1.0 : 1.0;
     float peak = side * kd_angle_upper(-dp / root, abs(cam.u) * abs(ray.l) / sqrt(polar.b + m.energy2));
@@ -144,8 +145,7 @@ void main()
     const kd_rounding rounding = kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon);
     kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* Rounding errors at the start, in roundoffs. size: error of R, whose root is w'; kick: error of w and w'
-     * together. */
+    /* Rounding errors at the start, in units of roundoff. size: error of R = w'^2. kick: error of w and w' together. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
@@ -153,7 +153,8 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
-    /* at the last crossing: the error of w due to the steps, and the divergence of two neighbouring rays */
+    /* values at the last crossing: lost_before is the error of w due to the steps, spread the divergence of
+     * neighbouring rays */
     float lost_before = 0.0, spread = 1.0;
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
@@ -174,8 +175,8 @@ void main()
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
             KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
-            p.y.z = clamp(p.y.z, -1e12, 1e12); /* kept finite; a ray whose error is amplified that much counts as
-                                                * undecided anyway */
+            /* kept finite, as a ray whose error is amplified by more than 1e12 counts as undecided anyway */
+            p.y.z = clamp(p.y.z, -1e12, 1e12);
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
             r = rates(m, p, polar.b, way);
@@ -195,8 +196,8 @@ void main()
         /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
          * integrations, if that is small. Two wrong paths may agree by chance. So the error of the steps is taken to be
          * at least the error at the last crossing, times the growth of the variation since then. Rounding adds about
-         * ten operations of a unit roundoff each, amplified by the variation. Rounding adds the same amount again
-         * through the time of the crossing, and through the drift of the first integral. */
+         * ten unit roundoffs, amplified by the variation. It adds as much again through the time of the crossing, and
+         * as much through the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +

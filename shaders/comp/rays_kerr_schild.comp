@@ -4,15 +4,15 @@
  *   H = (p.p - E^2 - f (E + l.p)^2)/2,  f = r^2 (2r - q^2)/(r^4 + a^2 z^2),
  *   l = ((rx + ay)/(r^2 + a^2), (ry - ax)/(r^2 + a^2), z/r)
  *
- * A ray traced backwards is a photon of the mirrored spacetime (t, phi) -> (-t, -phi) that moves away from the
- * observer: it falls through the future horizon, where these coordinates are regular. The independent variable s has
- * d(lambda) = r ds, that is, the Hamiltonian is r H, which has the same null orbits. Steps of constant size then shrink
+ * A ray traced backwards is a photon that moves away from the observer in the mirrored spacetime (t, phi) -> (-t,
+ * -phi). This photon falls through the future horizon, where these coordinates are regular. The independent variable s,
+ * with d(lambda) = r ds, makes the Hamiltonian r H, which has the same null orbits. Steps of constant size then shrink
  * with r, and stay symplectic.
  *
- * METHOD 0: symplectic Euler, p first, with one fixed-point iteration, as in common web shaders. 1: classical
- * Runge-Kutta of order 4. 2: M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with Yoshida's composition
- * of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 are found by cubic Hermite interpolation.
- * The start (position and momentum) comes from the host in double. */
+ * METHOD is 0, 1 or 2. 0 is symplectic Euler, p first, with one fixed-point iteration, as in common web shaders. 1 is
+ * the classical Runge-Kutta method of order 4. 2 is M. Tao's extended phase space (2016, Phys. Rev. E 94, 043303) with
+ * Yoshida's composition of order 6, solution A (1990, Phys. Lett. A 150, 262). Crossings of z = 0 are found by cubic
+ * Hermite interpolation. The start (position and momentum) comes from the host in double. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -30,7 +30,9 @@ layout(set = 0, binding = 0) readonly buffer Rays
 #define F(name) float name;
     KD_HOLE_MORE_FIELDS_(F)
 #undef F
-    float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, or 0 and 0 */
+    /* eight numbers for each ray: x, y, z, p_x, p_y, p_z, then 1/r and azimuth of the crossing before the start (0
+     * and 0 if there is none) */
+    float list[];
 }
 rays;
 layout(set = 0, binding = 1) writeonly buffer Ends { float ends[]; };
@@ -55,7 +57,7 @@ kd_point flow(vec3 x, vec3 p)
 {
     float a = rays.spin, r = radius(x), r2 = r * r, q = 1.0 / (r2 + a * a), den = 1.0 / (r2 * r2 + a * a * x.z * x.z);
     float f = r2 * (2.0 * r - rays.charge2) * den;
-    /* grad r = (r^2 x, r^2 y, (r^2 + a^2) z) r / (r^4 + a^2 z^2) */
+    /* gradient of r: (r^2 x, r^2 y, (r^2 + a^2) z) r / (r^4 + a^2 z^2) */
     vec3 dr = vec3(r2 * x.x, r2 * x.y, (r2 + a * a) * x.z) * (r * den);
     vec3 l = vec3((r * x.x + a * x.y) * q, (r * x.y - a * x.x) * q, x.z / r);
     float s = 1.0 + dot(l, p);
@@ -91,7 +93,7 @@ kd_point runge_kutta(kd_point y, float h)
     return o;
 }
 
-/* The two copies of the phase space in Tao's method. */
+/* The two copies of phase space, (x, p) and (x', p'), in Tao's method. */
 struct kd_copies { kd_point a, b; };
 
 kd_copies drift_a(kd_copies y, float h)
@@ -108,7 +110,8 @@ kd_copies drift_b(kd_copies y, float h)
     y.a.x += h * k.x;
     return y;
 }
-/* Rotation that couples the copies: (x - x', p - p') rotates by 2 omega h, whose cosine and sine are t. */
+/* Rotation that couples the copies. (x - x', p - p') rotates by the angle 2 omega h. t: cosine and sine of that angle.
+ */
 kd_copies bind(kd_copies y, kd_phasor t)
 {
     vec3 sx = 0.5 * (y.a.x + y.b.x), sp = 0.5 * (y.a.p + y.b.p), dx = 0.5 * (y.a.x - y.b.x), dp = 0.5 * (y.a.p - y.b.p);
@@ -138,7 +141,7 @@ kd_copies tao_6(kd_copies y, float h, kd_phasor turns[4])
     return y;
 }
 
-/* Position and slope within the step, by the cubic through both ends. */
+/* Cubic Hermite interpolation at the fraction s of a step, from values and derivatives at both ends. */
 float hermite(float y0, float d0, float y1, float d1, float s)
 {
     float c2 = 3.0 * (y1 - y0) - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * (y1 - y0);
@@ -150,9 +153,9 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. The number of turns
- * changes where the chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis
- * on opposite sides. */
+/* Number of turns about the axis that a step from x to y adds to the angle of atan2. The number of turns changes where
+ * the chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis on opposite
+ * sides. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -160,7 +163,7 @@ float turned(vec3 x, vec3 y)
     return y.y < 0.0 ? 1.0 : -1.0;
 }
 
-/* Boyer-Lindquist azimuth, source minus observer. */
+/* Boyer-Lindquist azimuth of the source minus that of the observer. */
 float azimuth(vec3 x, float turns)
 {
     float a = rays.spin, r = radius(x), root = rays.horizon_r - 1.0;
@@ -180,10 +183,10 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, including rounds of inner loops; the variables
-     * then hold intermediate values. This limit is lower, and a ray that needs more rounds stays undecided. With the
-     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns for Tao's method and 60 for the
-     * others. A ray that passes the hole takes 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds in total, with intermediate values in the
+     * variables. `most` is a lower limit; a ray that needs more rounds stays undecided. With the most steps that
+     * src/render/rays/check.c accepts, `most` is 16 half turns for Tao's method and 60 for the others. A ray that
+     * passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -194,7 +197,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* computed here instead of in each step, because the series has ten rounds */
+    /* rotations for the sizes of step, computed here instead of in each step, because the series has ten rounds */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
@@ -232,7 +235,7 @@ void main()
         }
         if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
-            /* from here the ray is straight, and it crosses the plane once more */
+            /* from here on the ray is straight; it crosses the plane once more if it moves towards it */
             if (z1 * y.a.p.z < 0.0 && n < ORDERS) {
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
@@ -242,12 +245,13 @@ void main()
         }
     }
     ends[o + 3 * ORDERS + 2] = fate;
-    if (fate == KD_FATE_ESCAPED) { /* the momentum is closer to its limit at infinity than the position */
+    /* the momentum gives the direction, because it is closer to its limit at infinity than the position is */
+    if (fate == KD_FATE_ESCAPED) {
         vec3 p = y.a.p;
         ends[o + 3 * ORDERS] = p.z / sqrt(dot(p, p));
         ends[o + 3 * ORDERS + 1] = -kd_atan2(p.y, p.x);
     }
-    /* Drift of the null condition, relative to E^2 = 1. */
+    /* Drift: violation of the null condition, relative to E^2 = 1. */
     vec3 x = y.a.x, p = y.a.p;
     float a = rays.spin, r = radius(x), q = r * r + a * a;
     float s = 1.0 + ((r * x.x + a * x.y) * p.x + (r * x.y - a * x.x) * p.y) / q + x.z * p.z / r;

@@ -11,7 +11,9 @@ layout(set = 0, binding = 0) writeonly buffer LensMap { float lens[]; };
 layout(set = 0, binding = 1) readonly buffer Settled
 {
     uint places[];
-}; /* the index of each ray, one word; then one plane after the other, as the bits of floats */
+    /* one word for each ray with its index in the map; then the planes of values, one after the other, as bits of
+     * floats */
+};
 
 void main()
 {

@@ -1,6 +1,7 @@
-/* Kernel: spreads the images of stars over pixels. star_tiles.comp and star_search.comp make pairs of a ray and a
- * star. The kernel finds the places in the ray's cell of the picture, [-1/2, 1/2]^2 steps, that the lens map takes to
- * the star. It spreads the star's magnified light over the pixels nearest to each place.
+/* Kernel: spreads the images of stars over pixels. star_tiles.comp and star_search.comp make pairs of a ray and a star.
+ * For each pair the kernel finds the images of the star: the places in the ray's cell of the picture, [-1/2, 1/2]^2
+ * steps, that the lens map takes to the star. It spreads the star's magnified light over the pixels nearest to each
+ * image.
  *
  * About its ray the map is taken as quadratic, in the plane of the sky perpendicular to the ray (orthographic
  * projection). Its coefficients come from the eight surrounding rays: the linear ones by least squares, the others by
@@ -15,8 +16,8 @@
  * Rays of the rim (ray/rim.glsl) are processed in the same way, with their own steps and the size of these steps in the
  * picture.
  *
- * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index. Drivers
- * unroll loops with such an array in any case. Without them lavapipe compiles this kernel in a third of the time. */
+ * Code for several rays or starts is in loops that are not unrolled. No array has a variable index, because drivers
+ * would unroll the loops around it in any case. In this form lavapipe compiles the kernel in a third of the time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -36,10 +37,10 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_STAR_LIGHT_BINDING 6
 #include "ray/star_light.glsl"
 
-#define KD_STAR_THIN 0.02 /* least area of a patch divided by the square of its size */
+#define KD_STAR_THIN 0.02 /* least area of a patch, relative to the square of the patch's size */
 
-/* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim +
- * aaab x^3 y + abbb x y^3; in radians. */
+/* The map about a ray, in radians: f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2
+ * + bbb y^3. On the rim there are also the terms aaab x^3 y + abbb x y^3. */
 struct kd_patch {
     vec2 c, a, b, aa, ab, bb, aaa, aab, abb, bbb, aaab, abbb;
     bool there;
@@ -72,8 +73,8 @@ void one_sided(kd_neighbour before, kd_neighbour after, inout vec2 a, inout vec2
 }
 
 /* Next to a caustic a patch is thin: rounding of 32 bits, and terms of third order, are a large part of its width.
- * There the map is the least-squares cubic for 7 x 7 rays. It is computed by the polynomials 1, u, u^2 - 4, u^3 - 7u,
- * which are orthogonal on -3 ... 3 and have the norms 7, 28, 84, 216. */
+ * There the map is the least-squares cubic for 7 x 7 rays. It is computed by the polynomials 1, u, u^2 - 4, u^3 - 7u.
+ * They are orthogonal on the integers -3 to 3, and their squared norms there are 7, 28, 84 and 216. */
 void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
 {
     float area = o.a.x * o.b.y - o.a.y * o.b.x, size = dot(o.a, o.a) + dot(o.b, o.b);
@@ -81,7 +82,7 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     vec2 k00 = vec2(0.0), k10 = vec2(0.0), k01 = vec2(0.0), k20 = vec2(0.0), k11 = vec2(0.0), k02 = vec2(0.0),
          k30 = vec2(0.0), k21 = vec2(0.0), k12 = vec2(0.0), k03 = vec2(0.0);
     int i = 0;
-    [[dont_unroll]] do { /* loops test at their ends: lens_closed.comp says why */
+    [[dont_unroll]] do { /* loops test at their ends, for the reason given in lens_closed.comp */
         int row = i / 7, dx = i - 7 * row - 3, dy = row - 3;
         kd_neighbour n = neighbour(c, at, x, y, dx, dy);
         float u = float(dx), v = float(dy), u2 = u * u - 4.0, v2 = v * v - 4.0;
@@ -111,16 +112,17 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* Ray k of the outer twelve rays. They are the 5 x 5 rays without the corners and without the inner 3 x 3. First come
- * the middles of the left, right, upper and lower sides, then the two rays beside each of these. */
+/* Offset of ray k of the outer twelve rays, which are the 5 x 5 rays without the corners and without the inner 3 x 3. k
+ * = 0 to 3: the middles of the left, right, upper and lower sides. Then come the two rays beside each of these. */
 ivec2 outer(int k)
 {
     int side = k < 4 ? k : (k - 4) / 2, far = (side & 1) == 0 ? -2 : 2, near = k < 4 ? 0 : (k & 1) == 0 ? 1 : -1;
     return side < 2 ? ivec2(far, near) : ivec2(near, far);
 }
 
-/* On the rim steps are long, and the rim's numbers have almost no rounding error. The map has all terms of third order,
- * and x^3 y and x y^3, from 20 rays, which are 5 x 5 without the corners. near: the 3 x 3 rays in the middle. */
+/* Adds terms of higher order on the rim, where steps are long and numbers have almost no rounding error. They are all
+ * terms of third order, and x^3 y and x y^3. They come from 21 rays, the 5 x 5 without the corners. near: the 3 x 3
+ * rays in the middle. */
 void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 {
     vec2 far[12];
@@ -159,7 +161,7 @@ void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
-    vec2 f[9]; /* places of 3 x 3 rays, row by row */
+    vec2 f[9]; /* places, in the plane of the sky, to which the 3 x 3 rays go, row by row */
     uint there = 0u;
     int k = 0;
     [[dont_unroll]] do {
@@ -205,7 +207,8 @@ mat2 derivative(kd_patch m, vec2 p)
 }
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
-/* A root near `p`; outside all cells if there is none. */
+/* A root of the map near the start `p`: a place that the map takes to q. If there is none, the result is outside all
+ * cells. */
 vec2 root(kd_patch m, vec2 q, vec2 p)
 {
     float far = 1.0;
@@ -216,11 +219,12 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
         vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
         far = max(abs(step_.x), abs(step_.y));
         p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
-    } while (++k < 6 && far > 1e-4); /* stops here, because the next step would only be about 1e-8 */
+        /* stops here, because the next step of Newton's method would only be about 1e-8 */
+    } while (++k < 6 && far > 1e-4);
     return far < 1e-3 ? p : vec2(1e9);
 }
 
-/* True if the map has a unique inverse over a ray's cell: the map's derivative changes by less than itself. */
+/* True if the map over a ray's cell has a unique inverse, because its derivative changes by less than itself. */
 bool is_plain(kd_patch m)
 {
     mat2 j = mat2(m.a, m.b);
@@ -229,14 +233,14 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet, they share the light, with weights that go from 0 to 1 over a fifth of a step. The maps of the
- * two cells put an image at slightly different places. Because the light is shared, no image is lost or counted
- * twice. */
+/* Weight of a cell for an image at x, in steps from its ray. The maps of two adjacent cells put an image at slightly
+ * different places. Therefore both cells show the image about their border, with weights that go from 0 to 1 over a
+ * fifth of a step. So no image is lost or counted twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell. place: place in the picture, in its steps. steps: squared steps of the picture per squared
- * step of the ray. share: fraction of the image that comes from this grid, rather than from the rim or another grid.
- * energy: energy at infinity of light that is measured as 1. */
+/* An image of a star in a ray's cell. place: place in the picture, in the picture's steps. steps: squared steps of the
+ * picture per squared step of the ray. share: the fraction of the image that this grid shows; the rim or another grid
+ * shows the rest. energy: energy at infinity of light whose measured energy is 1. */
 struct kd_star_pixel {
     vec2 place;
     float steps, share, energy;
@@ -274,7 +278,7 @@ void images(uint at, uint k)
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
-    uint fresh = 0u; /* bits of the roots that are counted */
+    uint fresh = 0u; /* bit k is set if root k was not found before, and is counted */
     int starts = is_plain(m) ? 1 : 4;
     /* This loop tests at its head. With the test at its end, images are lost on lavapipe (Mesa 22.3), for an unknown
      * reason. */

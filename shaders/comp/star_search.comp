@@ -1,19 +1,20 @@
 /* Kernel: lists pairs of a ray and a star that the ray may see, ray by ray. It processes the rays that star_tiles.comp
  * left over because the map is not simple there. A ray stands for a cell of the picture one step wide, which the lens
- * map takes to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, from the map's
- * first derivatives. star_images.comp finds the places of the stars' images.
+ * map takes to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, which follows from
+ * the map's first derivatives. star_images.comp finds the places of the stars' images.
  *
  * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first
- * (shared/faces.h). The search of a cell ends at the first star that is too faint. Such a star, with twice the mean
- * magnification of a ray's patch, would brighten the pixel by less than push.least in units of sky.brightness. A patch
- * of more than KD_STAR_PATCH radians, next to the critical curve, is left out.
+ * (shared/faces.h). The search of a cell ends at the first star that is too faint. A star is too faint if it would
+ * brighten the pixel by less than push.least, in units of sky.brightness, at twice the mean magnification of the ray's
+ * patch. A patch of more than KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
- * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. Where J
- * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest.
+ * With J the map's derivative, the parallelogram is |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. Where
+ * J is nearly singular, on the caustic, the derivative does not describe the whole patch; the term with e widens the
+ * parallelogram there.
  *
- * There the parallelogram is much wider than the patch. So a star must also be in a rectangle along the patch's long
- * axis, which contains the patch by the map's derivatives of first and second order. These derivatives need all
- * eight rays about the ray. */
+ * On the caustic the parallelogram is much wider than the patch. So a star must also be in a rectangle along the
+ * patch's long axis. By the map's derivatives of first and second order this rectangle contains the patch. These
+ * derivatives need all eight rays about the ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -32,17 +33,18 @@ KD_SPEC_STARS(KD_SPEC_U_, KD_SPEC_B_)
 
 #define KD_STAR_ROOM 0.8
 #define KD_STAR_MARGIN 0.0025 /* e */
-/* A ray's cell with its borders, where cells share images, and its square; with a margin for terms of third order. */
+/* KD_STAR_HALF: half a side of a ray's cell with its borders, in which cells share images. KD_STAR_BEND: the square of
+ * that. Both have a margin for terms of third order. */
 #define KD_STAR_HALF 0.65
 #define KD_STAR_BEND 0.5
 
-/* The mixed derivative, from the four rays at the corners; there: whether these rays escape. */
+/* The mixed derivative, from the four rays at the corners. there: true if all four rays escape. */
 vec3 twist(uint at, uint x, uint y, out bool there)
 {
     vec3 sum = vec3(0.0);
     there = true;
     int k = 0;
-    [[dont_unroll]] do { /* loops test at their ends: lens_closed.comp says why */
+    [[dont_unroll]] do { /* loops test at their ends, for the reason given in lens_closed.comp */
         int i = (k & 1) * 2 - 1, j = (k >> 1) * 2 - 1;
         ivec2 place = kd_around_neighbour(ivec2(x + i, y + j));
         uint near = place.x < 0 ? at : uint(place.y) * push.width + uint(place.x);
@@ -52,8 +54,8 @@ vec3 twist(uint at, uint x, uint y, out bool there)
     return sum;
 }
 
-/* Difference to a neighbour along an axis of the picture; 0 if neither neighbour escapes. bend: half the second
- * difference; there: whether both neighbours escape. */
+/* Slope along an axis of the picture, from the differences to both neighbours; 0 if neither neighbour escapes. bend:
+ * half the second difference. there: true if both neighbours escape. */
 vec3 slope(vec3 n, uint at, uint x, uint y, ivec2 axis, out vec3 bend, out bool there)
 {
     ivec2 next = kd_around_neighbour(ivec2(x, y) + axis), last = kd_around_neighbour(ivec2(x, y) - axis);
@@ -73,7 +75,7 @@ float rectangle_of(vec3 axis, vec3 i, vec3 j, vec3 ii, vec3 jj, vec3 ij)
            KD_STAR_BEND * (abs(dot(axis, ii)) + abs(dot(axis, jj)) + abs(dot(axis, ij)));
 }
 
-/* True if all images there are made by the rim, or by another grid of the rim. */
+/* True if the rim, or another grid of the rim, makes all images in the ray's cell. */
 bool is_left_out(uint x, uint y)
 {
     return AT_RIM
@@ -96,10 +98,11 @@ void search(uint at)
     float reach = 0.75 * size;
     bool looks = kd_sky_escapes(at) && size < (RIM != 0u ? KD_STAR_PATCH_RIM : KD_STAR_PATCH) && aa > 0.0 && bb > 0.0 &&
                  !is_left_out(x, y);
-    /* Vectors whose products with a star are the components of x, so that a star is tested by two products. */
+    /* The components of x are the products of a star's vector with these two vectors, so that two products test a star.
+     */
     vec3 to_x = ((bb + more) * a - ab * b) * unit, to_y = ((aa + more) * b - ab * a) * unit;
     float far = 1.3 * reach * reach;
-    /* The rectangle along the long axis; without all eight rays it has no bound but `reach`. Second-order terms count
+    /* The rectangle along the long axis. If not all eight rays exist, only `reach` bounds it. Second-order terms count
      * from the slope on one side, since the central one is i - bend_i. */
     vec3 long_ = dot(i, i) > dot(j, j) ? i : j;
     long_ = i * dot(i, long_) + j * dot(j, long_);
@@ -114,8 +117,8 @@ void search(uint at)
     long_ = kd_sky_galactic(long_);
     wide = kd_sky_galactic(wide);
     /* The rectangle about the parallelogram. e adds little to it, unless the parallelogram is thin. The rectangle is
-     * limited by the ray's size. A step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as
-     * much; a margin is added because that factor grows. */
+     * limited to the ray's size. A small change of direction moves the place on the face by at most 1 + p^2 + q^2 times
+     * as much; a margin is added because that factor grows within the step. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room =

@@ -2,9 +2,10 @@
  * a cell of the picture one step wide; star_images.comp finds the star's image in it.
  *
  * Nine rays of a tile, three by three, give the map over the tile to second order. This map takes places in the tile to
- * the plane of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape.
- * The map's derivative changes by less than KD_STAR_TILE_BENT of itself. The map then has a unique inverse there, which
- * Newton's method finds. The corners show that terms of third order are less than KD_STAR_TILE_OFF rays.
+ * the plane of the sky perpendicular to the middle ray. A tile is simple under three conditions: (1) all nine rays
+ * escape; (2) the map's derivative changes by less than KD_STAR_TILE_BENT of itself, so that the map has a unique
+ * inverse, which Newton's method finds; (3) the terms of third order, as the corners show, are less than
+ * KD_STAR_TILE_OFF rays.
  *
  * Other tiles are listed. A large tile, KD_STAR_TILE rays a side, is listed as small tiles of three rays a side, for
  * the next run of this kernel. The rays of a small tile are listed for star_search.comp.
@@ -13,11 +14,12 @@
  * brighten a pixel by less than push.least.
  *
  * Four more rays of a large tile give its map to third order, and its terms of fourth order along both axes. A simple
- * tile is smooth if the terms of fourth order, which are left out, are less than KD_STAR_TILE_SMOOTH rays. The light of
- * stars in a smooth tile is spread here, at the places and with the magnification of the tile's map. So no pairs are
- * listed.
+ * tile is smooth if the terms of fourth order, which are left out, are less than KD_STAR_TILE_SMOOTH rays. For a smooth
+ * tile this kernel spreads the stars' light itself, at the places and with the magnification of the tile's map. It
+ * lists no pairs for such a tile.
  *
- * BRIGHT: light is spread here in all simple tiles. In those that are not smooth, the map is of second order. */
+ * If BRIGHT is set, this kernel spreads light itself in all simple tiles. In simple tiles that are not smooth, it uses
+ * the map of second order. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -41,7 +43,7 @@ layout(set = 0, binding = 10) readonly buffer Stars_ { float star_numbers[]; };
 #define KD_STAR_TILE_OFF 0.2
 #define KD_STAR_TILE_SMOOTH 0.005
 const int HALF = int(TILE) / 2;
-/* upper bound of kd_tile.near: images are searched up to 0.6 */
+/* upper bound of kd_tile.near; images are searched up to 0.6 steps from a ray */
 const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
 /* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, where u
@@ -60,7 +62,7 @@ vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q
 
 float most(vec2 v) { return max(abs(v.x), abs(v.y)); }
 
-/* whole: true if the tile has all of its rays. */
+/* Computes the map over a tile. whole: true if all rays of the tile exist. */
 kd_tile tile_about(uint at, bool whole)
 {
     kd_tile t;
@@ -68,14 +70,14 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9); /* low, high: bounds of the places of all nine rays */
-    /* terms of u v^2 and u^2 v: the part of the corners that the other terms do not explain */
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* low, high: bounds of the nine rays' places in the plane of the sky */
+    /* terms of u v^2 and u^2 v, from the part of the corners that the other terms do not explain */
     vec2 corners = vec2(0.0), sides = vec2(0.0);
     /* values at the ends of both axes, and the mean at the corners */
     vec2 left = vec2(0.0), right = left, above = left, below = left, corner = left;
     t.a = t.b = t.aa = t.ab = t.bb = vec2(0.0);
     int k = 0;
-    do { /* loops test at their ends: lens_closed.comp says why */
+    do { /* loops test at their ends, for the reason given in lens_closed.comp */
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
         uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
         vec3 other = kd_sky_from(there);
@@ -119,7 +121,7 @@ kd_tile tile_about(uint at, bool whole)
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
     t.near = min(0.61 + 0.55 * off, NEAR);
     t.is_smooth = false;
-    if (TILE == KD_STAR_TILE) { /* each axis has rays at -2 ... 2 of these steps */
+    if (TILE == KD_STAR_TILE) { /* each axis has rays at -2, -1, 0, 1 and 2 of these steps */
         uint across = whole ? uint(HALF / 2) : 0u, down = across * push.width;
         vec3 u1 = kd_sky_from(at - across) - n, u2 = kd_sky_from(at + across) - n, v1 = kd_sky_from(at - down) - n,
              v2 = kd_sky_from(at + down) - n;
@@ -158,17 +160,17 @@ mat2 derivative(kd_tile t, vec2 p)
 
 float determinant_of(mat2 j) { return j[0].x * j[1].y - j[1].x * j[0].y; }
 
-/* Adds terms of second and third order to a place. */
+/* Adds the terms of second and third order to a place (u, v). */
 vec2 linear_of(kd_tile t, vec2 p)
 {
     return p + p.x * (p.x * (t.aa + p.x * t.aaa + p.y * t.aab) + p.y * t.ab) +
            p.y * p.y * (t.bb + p.y * t.bbb + p.x * t.abb);
 }
 
-/* Bounds for stars in the cells of a tile. One is the largest coordinates by the linear map. The other is the least
- * area to which the map takes a ray's cell, relative to the area by the linear map. Both are taken over nine places:
- * middle, sides and corners. Between these, a parabola with second derivative c exceeds its values at distances `far`
- * by up to c far^2/8. */
+/* Bounds for the stars that may be in a tile: the largest coordinates by the linear map, and `sharp`, the least area to
+ * which the map takes a ray's cell, relative to the area by the linear map. Both come from nine places: the middle, the
+ * sides and the corners. Between two places at the distance `far`, a parabola with second derivative c exceeds its
+ * values there by up to c far^2/8; this is added. */
 struct kd_bounds {
     vec2 most;
     float sharp;
@@ -191,7 +193,7 @@ kd_bounds bounds_of(kd_tile t)
     return o;
 }
 
-/* Converts a place of the linear map to the corresponding place of the whole one. */
+/* Finds the place (u, v) that the whole map takes to the same point as the linear map takes `linear`. */
 vec2 place_of(kd_tile t, vec2 linear)
 {
     vec2 p = linear;
@@ -206,15 +208,15 @@ vec2 place_of(kd_tile t, vec2 linear)
 /* Solid angle to which the map takes a ray's cell at a place. */
 float area(kd_tile t, vec2 p) { return abs(determinant_of(derivative(t, p)) * t.det) * (1.0 / float(HALF * HALF)); }
 
-/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its flux
- * divided by the solid angle of the sky to which the map takes a pixel. Where two tiles meet, they share the light,
- * because their maps differ slightly. The weights go from 0 to 1 over a fifth of a step. Two rays share light in the
- * same way in star_images.comp. */
+/* Spreads the light of star k. place: offset of the image from the middle ray (x, y) of a tile, in rays. magnified: the
+ * star's flux divided by the solid angle of the sky to which the map takes a pixel. The maps of two adjacent tiles
+ * differ slightly. Therefore both tiles show the image about their border, with weights that go from 0 to 1 over a
+ * fifth of a step, as two rays do in star_images.comp. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
     float own = share.x * share.y;
-    if (RIM == 1u && !BRIGHT) /* the rest of the light comes from the rim */
+    if (RIM == 1u && !BRIGHT) /* the rest of the image comes from the rim */
         own *= 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y) + place)));
     if (!bright || own <= 0.0)
         return;
@@ -224,8 +226,8 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
     kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * own * colour);
 }
 
-/* Lists the pairs of star k, unless the star is too faint. place: distance of the star's image from the middle ray,
- * in rays. */
+/* Lists the pairs of star k with the rays near its image, unless the star is too faint. place: offset of the image from
+ * the middle ray, in rays. */
 void note(uint at, vec2 place, float near, uint k, bool bright)
 {
     ivec2 low = max(ivec2(ceil(place - near)), ivec2(-HALF)), high = min(ivec2(floor(place + near)), ivec2(HALF));
@@ -243,8 +245,8 @@ void note(uint at, vec2 place, float near, uint k, bool bright)
     } while (++i < all);
 }
 
-/* Lists the parts of a tile that begins with ray `first` of the map at (x, y), as far as they exist: rays, or small
- * tiles. */
+/* Lists the parts of a tile, as far as they exist: small tiles of a large tile, or rays of a small one. first: index in
+ * the map of the tile's first ray, which is at (x, y). */
 void list(uint first, uint x, uint y)
 {
     const bool large = TILE == KD_STAR_TILE;
@@ -259,8 +261,8 @@ void list(uint first, uint x, uint y)
     } while (++i < all);
 }
 
-/* True if all images in a tile are made by the rim, or by another grid of the rim. If the rim makes those at the
- * tile's corners, it makes all of them, because its edge is convex. */
+/* True if the rim, or another grid of the rim, makes all images in a tile. It is enough to test the corners, because
+ * the edge of the rim is convex. */
 bool is_left_out(uint x, uint y)
 {
     if (AT_RIM)
@@ -282,11 +284,11 @@ void seek(uint x, uint y)
     bool whole = x + TILE <= push.width && y + TILE <= push.end;
     uint at = whole ? first + uint(HALF) * (push.width + 1u) : first;
     kd_tile t = tile_about(at, whole);
-    /* Vectors whose products with a star are u and v. */
+    /* u and v are the products of a star's vector with these two vectors. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
     float unit = push.least * float(SIDE * SIDE) /
-                 (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a slightly
-                                                                      * smaller area */
+                 /* the factor 1.2 is needed because the last of the rim's rays stand for a slightly smaller area */
+                 (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0);
     kd_bounds bounds = bounds_of(t);
     float least = bounds.sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* flux of the faintest visible star */
     bool left_out = is_left_out(x, y), spreads = BRIGHT || t.is_smooth;
@@ -295,7 +297,7 @@ void seek(uint x, uint y)
         bool near = false;
         vec2 place = vec2(0.0);
         vec4 star = vec4(0.0);
-        for (;;) { /* lavapipe skips work only by leaving a loop */
+        for (;;) { /* this is a loop, because lavapipe skips work only by leaving a loop */
             kd_star_next_cell(t.cells, walk);
             if (walk.k < walk.end && !walk.done) {
                 star = star_row(walk.k);

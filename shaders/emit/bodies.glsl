@@ -1,10 +1,10 @@
 /* Bodies as an emitter: opaque spheres, in the plane or off it, that rays may meet (light/meet.glsl).
  *
- * A body is a sphere of radius R in its own frame, and space is taken as flat on its scale. The map A of a body
- * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
- * along r, theta and phi, stretched by the metric. In that frame the light that arrives at one time is a plane wave, t
- * = n.Y, where n is the direction of propagation. In the frame of a body of velocity v, the wave has the time t' =
- * gamma (t - v.Y). The wave meets the body where
+ * A body is a sphere of radius R in its own frame, and space is taken as flat on the scale of the body. The map A of a
+ * body takes differences of coordinates from the body's centre to lengths in the orthonormal frame of zero angular
+ * momentum there. These lengths are along r, theta and phi, stretched by the metric. In that frame the light that
+ * arrives at the observer at one time is a plane wave t = n.Y, where n is the direction of propagation and Y the place.
+ * In the frame of a body of velocity v, the wave has the time t' = gamma (t - v.Y). The wave meets the body where
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *
@@ -17,8 +17,8 @@
 #ifndef KD_BLOCK_bodies
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
-    F(least)                  /* 1/r of the outermost place at which there may be a body */ \
-    /* a ball round all bodies, M; x and y use mirrored azimuths, which are 0 at the observer */ \
+    F(least)                  /* 1/r of the outermost place that a body may reach */ \
+    /* x, y, z and radius of a ball that contains all bodies, M. Azimuths are mirrored, and 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* number of the tree's leaves, a power of two */
 /* clang-format on */
@@ -52,7 +52,7 @@ vec4 kd_body_row(uint body, uint row)
 
 uint kd_bodies_which(kd_met met) { return uint(kd_body_row(met.body, 6u).y); }
 
-/* 1/g, as the observer sees the body. */
+/* 1/g of the body's light, as the observer sees it. */
 float kd_bodies_shift(kd_met met)
 {
     vec4 u = kd_body_row(met.body, 5u);
@@ -64,9 +64,9 @@ float kd_bodies_shift(kd_met met)
 /* Temperature in the body's frame, K. */
 float kd_bodies_kelvin(kd_met met) { return emission.disk.peak * kd_body_row(met.body, 6u).x; }
 
-/* Irradiance of a surface of normal y from light with these moments of its direction n, to second order (R.
- * Ramamoorthi & P. Hanrahan 2001, "On the relationship between radiance and irradiance", J. Opt. Soc. Am. A 18,
- * 2448): to that order a cosine c clamped at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
+/* Irradiance of a surface of normal y, from the moments of the arriving light's direction n up to second order (R.
+ * Ramamoorthi & P. Hanrahan 2001, "On the relationship between radiance and irradiance", J. Opt. Soc. Am. A 18, 2448):
+ * to that order a cosine c clamped at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
 vec3 kd_bodies_reflected(kd_met met)
 {
     vec4 a = kd_body_row(met.body, 7u), b = kd_body_row(met.body, 8u), c = kd_body_row(met.body, 9u);
@@ -74,7 +74,8 @@ vec3 kd_bodies_reflected(kd_met met)
     vec4 p = vec4(s * cos(met.phi), -s * sin(met.phi), met.u, met.w);
     vec3 y =
         vec3(dot(kd_body_row(met.body, 0u), p), dot(kd_body_row(met.body, 1u), p), dot(kd_body_row(met.body, 2u), p));
-    /* The normal in the body's frame; light left the surface at t' = R cos. */
+    /* The normal in the body's frame. Light left the surface at the time t' = R cos, where cos is the cosine of the
+     * emission angle. */
     vec4 v = kd_body_row(met.body, 3u), own = kd_body_row(met.body, 4u);
     y /= max(met.w, 1e-12);
     float t = (met.cosine * own.y / v.w + dot(v.xyz, y)) / (1.0 + v.z * own.x);

@@ -1,19 +1,20 @@
 /* Colours of black bodies, from tables that do not depend on the scene.
  *
- * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES). These temperatures are the floats whose low bits are zero. So the upper
- * bits of a temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their
- * differences to the next node. Green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+ * Nodes are at the temperatures T = 2^k (1 + m/KD_COLOUR_NODES), which are the floats whose low bits are zero. So the
+ * upper bits of a temperature, as a float, are the index of its row. A row holds red and blue of linear sRGB of
+ * luminance 1, and their differences to the next node. Green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b
+ * = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
 #define KD_COLOUR_NODES 64 /* nodes an octave */
-#define KD_COLOUR_SHIFT 17 /* 23 bits of fraction minus 6 */
+#define KD_COLOUR_SHIFT 17 /* a float has 23 bits of fraction; 6 of them number the nodes */
 #define KD_COLOUR_LEAST 64.0
 #define KD_COLOUR_LEAST_BITS 0x42800000
-#define KD_COLOUR_OCTAVES 24           /* up to 1.07e9 K */
-#define KD_COLOUR_MOST_BITS 0x4e7fffff /* just below 64 K 2^24 */
+#define KD_COLOUR_OCTAVES 24           /* the highest temperature is 1.07e9 K */
+#define KD_COLOUR_MOST_BITS 0x4e7fffff /* bits of the float just below 64 K times 2^24 */
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T) \
-    T(colour, KD_COLOUR_ROWS)   /* red, blue, and their differences to the next row */ \
+    T(colour, KD_COLOUR_ROWS)   /* red and blue, and the differences of both to the next row */ \
     T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and the difference to \
                                  * the next row */
 #endif

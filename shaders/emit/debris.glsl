@@ -12,14 +12,14 @@
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
     U(turn) U(rows) U(columns)      /* number of nodes of a whole turn, of rows of nodes, and of nodes in a row */ \
-    F(first_row) F(first_column) F(rows_octave) /* first node; rows in which r doubles, counted from r = 1 */ \
-    F(depth)                    /* D, divided by the area of a node at r = 1 */ \
+    F(first_row) F(first_column) F(rows_octave) /* log2 r of the first row; first azimuth; rows per doubling of r */ \
+    F(depth)                    /* D, optical depth for one body per M^2, over the area of a node at r = 1 */ \
     F(temperature)              /* temperature, relative to the disk's largest */
 /* clang-format on */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
 #define KD_BUFFERS_debris(B) \
-    B(4, floats, debris) /* three numbers a node: matter, in bodies, and its products with v_r and v_phi */
+    B(4, floats, debris) /* three numbers a node: matter, in bodies, and matter times v_r and v_phi */
 #define KD_PASS_debris(P)
 #endif
 
@@ -46,7 +46,7 @@ vec3 kd_debris_at(float row, float turn)
                mix(kd_debris_node(i + 1u, j), kd_debris_node(i + 1u, j + 1u), right), row - float(i));
 }
 
-/* 1/g of matter with this velocity. */
+/* 1/g of matter with the velocity v = (v_r, v_phi). */
 float kd_debris_shift(kd_sample s, vec2 v)
 {
     kd_place at = kd_place_at(s.w, 0.0, 1.0);

@@ -8,21 +8,22 @@
 /* clang-format off */
 #define KD_BLOCK_disk(F, U, A) \
     F(r_in) F(r_out)       /* M */ \
-    F(fade)                /* reciprocal width of the outer fade, 1/M */ \
+    F(fade)                /* largest effective temperature times the hardening factor, K */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
     F(luminous) /* log2 of the fraction of light that the eye perceives, for a black body of temperature `peak` */ \
-    F(quanta)              /* x = h nu/(k T) of the observed frequency at the temperature `peak` */ \
-    F(quanta_mean)         /* (1 - exp(-x))/x */
+    F(quanta)              /* x = h nu/(k T), with nu the observed frequency and T the temperature `peak` */ \
+    F(quanta_mean)         /* (1 - exp(-x))/x for the x above */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
-/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row. For reflected
- * light also T_c/T_peak, and r^3 times the flux of this light divided by that of a black body of T_c. atmosphere:
- * emitted intensity divided by that of an isotropic surface of the same flux, against the square root of the cosine to
- * the normal. Each row has the coefficients of a cubic in the place within its cell. */
+/* Tables. disk: (T/T_peak) r^(3/4) as a function of y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next
+ * row. With reflected light of temperature T_c also T_c/T_peak, and r^3 times the ratio of that light's flux to the
+ * flux of a black body of T_c. atmosphere: ratio of the emitted intensity to that of an isotropic surface of the same
+ * flux, as a function of the square root of the cosine to the normal. Each row has the coefficients of a cubic in the
+ * place within its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
 #define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of being bolometric */
-#define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
+#define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission, by the table `atmosphere` */
 #define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
 #define KD_TRAIT_REFLECTED 8192u /* the disk reflects light that returns to it */
 #define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB) T(FREQUENCY) T(REFLECTED)
@@ -44,7 +45,7 @@ float kd_disk_intensity(float t)
     return t > 0.0 ? t * exp(x - y) * emission.disk.quanta_mean / mean : 0.0;
 }
 
-/* Light of a black body of temperature t, relative to the disk's largest temperature. */
+/* Light of a black body. t: its temperature divided by the disk's largest. */
 vec3 kd_black_body(float t, uint traits)
 {
     if ((traits & KD_TRAIT_FREQUENCY) != 0u)
@@ -69,7 +70,8 @@ kd_disk_row kd_disk_at(float w)
     return kd_disk_row(i, y - float(i));
 }
 
-/* Reflected light of the disk, a dilute black body: its temperature over the disk's largest, and its dilution. */
+/* Reflected light of the disk, which is a dilute black body: its temperature divided by the disk's largest, and its
+ * dilution factor. */
 vec2 kd_disk_dilute(float w)
 {
     kd_disk_row at = kd_disk_at(w);
@@ -84,7 +86,8 @@ vec3 kd_disk_reflected(kd_sample s, uint traits)
     return g > 0.0 ? light.y * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
 }
 
-/* Emitted intensity over that of an isotropic surface of the same flux, by the angle of emission. */
+/* Ratio of the emitted intensity to that of an isotropic surface of the same flux, at the sample's angle of emission.
+ */
 float kd_disk_limb(kd_sample s)
 {
     float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_ATMOSPHERE_ROWS);
@@ -94,7 +97,7 @@ float kd_disk_limb(kd_sample s)
     return f.x + x * (f.y + x * (f.z + x * f.w));
 }
 
-/* Light of the disk's surface of the temperature t, by its atmosphere. */
+/* Light of the disk's surface at the temperature t, with the effect of its atmosphere. */
 vec3 kd_disk_surface(float t, kd_sample s, uint traits)
 {
     vec3 light = kd_black_body(t, traits);
@@ -126,8 +129,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     float t = kd_disk_heat(s.w) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
 
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Outside the disk t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, the divisor
-     * of g, may vanish. */
+    /* Outside the disk t may be NaN, for two reasons: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) -
+     * L, the divisor of g, may vanish. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * kd_disk_fade(r) : 0.0);
 }
 

@@ -1,16 +1,17 @@
-/* The echo of a flash. A lamp on the axis flashes, and its light runs over the thin disk. The disk's gas shines at
- * once, in proportion to the light that it receives. The gas is shown at the time when the light of each ray left it.
+/* The echo of a flash. A lamp on the axis flashes, and its light runs over the thin disk. The disk's gas shines as soon
+ * as it receives that light, and in proportion to it. For each ray the gas is shown at the time when the ray's light
+ * left it.
  *
- * Gas at r receives what the lamp sent t_1(r) before (emit/lamp.glsl). I_nu/nu^3 is constant along the ray, so
- * I_nu ~ nu^-index is multiplied by g^(3 + index). The light in all rays together, over time, is the impulse response
- * of src/physics/disk/echo.h. */
+ * Gas at r receives the light that the lamp sent a time t_1(r) earlier (emit/lamp.glsl). I_nu/nu^3 is constant along
+ * the ray, so a spectrum I_nu ~ nu^-index is multiplied by g^(3 + index). The light in all rays together, over time, is
+ * the impulse response of src/physics/disk/echo.h. */
 #ifndef KD_BLOCK_flash
 /* clang-format off */
 #define KD_BLOCK_flash(F, U, A) \
     F(since)               /* time from the peak at the lamp to the time that the picture shows, M */ \
-    F(sharp)               /* log2(e)/(2 duration^2) */ \
-    F(period) F(per_period) /* time between flashes, M, and its inverse; 0: there is one flash */ \
-    F(brightness) F(power) /* brightness at the peak of a flash, where the disk is lit most; power of g */ \
+    F(sharp)               /* log2(e)/(2 duration^2), the coefficient of the Gaussian pulse in exp2 */ \
+    F(period) F(per_period) /* time between flashes, M, and its inverse; 0 if there is only one flash */ \
+    F(brightness) F(power) /* peak brightness where the disk is lit most; exponent of g */ \
     F(temperature)         /* K */
 /* clang-format on */
 #define KD_TABLES_flash(T)

@@ -2,18 +2,18 @@
 #ifndef KD_BLOCK_frame
 /* clang-format off */
 #define KD_BLOCK_frame(F, U, A) \
-    U(pixels_x)            /* a row */ \
+    U(pixels_x)            /* number of pixels in a row */ \
     U(band_pixels)         /* number of pixels whose light one buffer holds; the separate luminance follows it */ \
     F(azimuth)             /* azimuth of the observer, radians */ \
-    F(delay)               /* the light delay for which moving emitters are shown at the scene's time, M */ \
+    F(delay)               /* light delay at which moving emitters are shown as they are at the scene's time, M */ \
     F(w_least) F(w_most)   /* range of 1/r in which crossings may have light */ \
-    F(along_least) F(along_most) /* range of 1/r of all volumes together */ \
-    F(along_hollow) F(along_u)   /* least and largest |cos(theta)| of all volumes together */ \
-    F(along_knot)          /* 1/r of a sphere at which the light of a volume has an edge; 0: none */ \
-    F(kelvin) F(jansky)    /* light 1 at one frequency: as brightness temperature in K, and as Jy per steradian */ \
-    F(jansky_pixel)        /* Jy from one pixel of light 1 of one frequency; 0: pixels differ in size */ \
+    F(along_least) F(along_most) /* range of 1/r that contains all volumes */ \
+    F(along_hollow) F(along_u)   /* least and largest |cos(theta)| in all volumes */ \
+    F(along_knot)          /* 1/r of a sphere on which the light of a volume has an edge; 0 if there is none */ \
+    F(kelvin) F(jansky)    /* factors from light at one frequency to K (brightness) and Jy/sr */ \
+    F(jansky_pixel)        /* factor from light of a pixel at one frequency to Jy; 0 if pixels differ */ \
     F(r_isco) \
     F(one_minus_a)         /* 1 - spin, which would lose digits if it were computed from a float near 1 */ \
-    F(inner) F(outer)      /* edges of the disk, M; always set, even if nothing emits light between them */
+    F(inner) F(outer)      /* edges of the disk, M; set even if nothing between them emits light */
 /* clang-format on */
 #endif

@@ -1,42 +1,43 @@
 /* Turbulent gas in place of the smooth disk. A procedural pattern multiplies the disk's temperature and optical depth.
  * The opacity of a crossing depends on the length of the ray's path through the gas.
  *
- * Pattern. Rings, KD_GAS_RING apart in ln r, rotate rigidly with the Omega of their middle. Each has its own noise in
- * the plane that rotates with it. The noise is evaluated at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear
- * ln(r/r_j). So features grow with r, there is no seam in phi, and the pattern does not wind up with time. The noises b
- * of the two rings about a place are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere.
- * Octaves are those of fractional Brownian motion. The lattice of each octave is rotated, shifted at random and
- * drifting, and is displaced by the octaves before it (domain warp).
+ * Pattern. The disk is divided into rings, KD_GAS_RING apart in ln r. Each ring rotates rigidly with the Omega of its
+ * middle, and has its own noise in the plane that rotates with it. The noise is evaluated at K (r/r_j) (cos psi, sin
+ * psi), psi = phi - Omega_j t + shear ln(r/r_j). So features grow with r, there is no seam in phi, and the pattern does
+ * not wind up with time. The noises b of the two rings about a place are added with weights w_1^2 + w_2^2 = 1, so that
+ * the variance is the same everywhere. The noise is a sum of octaves, as in fractional Brownian motion. Each octave's
+ * lattice is rotated, is shifted at random, drifts, and is displaced by the octaves before it (domain warp).
  *
- * Let n = sum of s_k b_k, where b_k has variance 1 and is nearly Gaussian. Flux and depth are multiplied by exp(n - sum
- * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux changes colour and brightness consistently.
+ * Let n be the sum of s_k b_k over octaves k, where s_k is the amplitude and b_k is noise of variance 1 that is nearly
+ * Gaussian. Flux and depth are multiplied by exp(n - sum s_k^2/2), whose mean is 1. A black body of T^4 proportional to
+ * that flux changes colour and brightness consistently.
  *
  * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an angle
  * theta to the normal, in the frame of the gas (cosine.glsl). */
 #ifndef KD_BLOCK_gas
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
-#define KD_GAS_RINGS 80 /* radii from 1 to 1e6 M, and one beyond */
+#define KD_GAS_RINGS 80 /* the radii from 1 to 1e6 M need this number of rings, including one beyond the end */
 #define KD_GAS_OCTAVES 8
 #define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by one radian */
-#define KD_GAS_HASTE 1.6  /* ratio of the drift of successive octaves */
-#define KD_GAS_FINER 1.9  /* ratio of the numbers of cells per length of successive octaves */
+#define KD_GAS_HASTE 1.6  /* ratio of an octave's drift to that of the octave before */
+#define KD_GAS_FINER 1.9  /* ratio of an octave's number of cells per length to that of the octave before */
 #define KD_GAS_TURN 0.9   /* rotation of each octave's lattice against that of the octave before, radians */
 #define KD_BLOCK_gas(F, U, A) \
     F(first) /* log2 of the innermost ring's radius */ \
-    F(cells) /* K: cells of the first octave over a length equal to r */ \
+    F(cells) /* K, the number of cells of the first octave over a length equal to r */ \
     F(shear) \
-    F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
+    F(warp)        /* displacement by an octave at one standard deviation of its noise, in its own cells */ \
     F(loudness)    /* s_0, the amplitude of the first octave */ \
-    F(persistence) /* s_(k+1)/s_k, the ratio of successive amplitudes */ \
-    F(finer) /* squared ratio of the ray's steps, counted in cells of successive octaves, including displacement */ \
+    F(persistence) /* s_(k+1)/s_k, the ratio of an octave's amplitude to that of the octave before */ \
+    F(finer) /* squared ratio between octaves of a ray's step counted in cells, with the effect of displacement */ \
     F(depth) /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
-/* Tables. The row of a ring holds the ring's azimuth minus the observer's in radians, Omega, and the factor that
- * converts a place in the ring's plane to a place in the next ring's plane. The row of an octave holds the drift of the
- * lattice, as a fraction of a cell and whole cells. */
+/* The table `gas` has a row for each ring, then one for each octave. A ring's row holds the ring's azimuth minus the
+ * observer's in radians, Omega, and the factor that converts a place in the ring's plane to a place in the next ring's
+ * plane. An octave's row holds the drift of its lattice: the fraction of a cell, and the whole cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
-#define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
-#define KD_TRAIT_GAS_SHIFT 8u /* number of octaves from this bit on; 0: no turbulence */
+#define KD_TRAIT_GAS_DEEP 64u /* opacity follows from the optical depth */
+#define KD_TRAIT_GAS_SHIFT 8u /* from this bit on, the traits hold the number of octaves; 0: no turbulence */
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)
 #define KD_TRAITS_gas(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES)
 #define KD_BUFFERS_gas(B)
@@ -45,10 +46,10 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = (TRAITS_gas & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
-/* the scene's gas, thin or thick, is shown as it was when its light left the gas */
+/* true if the scene's gas, thin or thick, is shown as it was when its light left it */
 const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 
-/* Gradient at a point of a lattice that repeats after 65536 cells, times 32768. */
+/* Gradient at a point of the lattice, times 32768. The lattice repeats after 65536 cells. */
 vec2 kd_gas_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -56,8 +57,9 @@ vec2 kd_gas_gradient(uint point)
     return vec2(float(int(h) >> 16), float(int(h << 16) >> 16));
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in a lattice shifted by at.xy of a cell and at.zw cells. The second result
- * is noise that is uncorrelated with the first: its gradients are rotated by a quarter turn. */
+/* Gradient noise of variance 1 (Perlin 2002). The lattice is shifted by the fraction at.xy of a cell and by at.zw whole
+ * cells. The second result is noise that is uncorrelated with the first: its gradients are rotated by a quarter turn.
+ */
 vec2 kd_gas_noise(vec2 p, vec4 at)
 {
     p += at.xy;
@@ -71,18 +73,18 @@ vec2 kd_gas_noise(vec2 p, vec4 at)
                    vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
     vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x),
                     vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
-    /* the factor makes the mean of n^2 equal 1, over the square's gradients and over places in a cell */
+    /* this factor makes the mean of n^2 equal to 1, averaged over the random gradients and over all places in a cell */
     return mix(low, high, t.y) * (5.677716904867669 / 32768.0);
 }
 
-/* Place in a ring's plane, and the ring's motion. */
+/* A place in a ring's plane, and the motion of the ring. */
 struct kd_gas_ring {
     vec2 p;
     uint row;
     float ahead;
 };
 
-/* off: ln(r/r_j), the distance from the ring's middle */
+/* The place of a sample in ring j. off: ln(r/r_j), the distance from the middle of the ring. */
 kd_gas_ring kd_gas_ring_of(uint j, float off, kd_sample s)
 {
     uint row = j * (KD_GAS_OCTAVES + 1u);
@@ -103,8 +105,8 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
-/* The area of the pattern, in cells, that one ray stands for. It is given by the sum and the product of the squared
- * semi-axes of the ray's footprint there. A step (dr, r dphi) is a step of (dr, r dphi + shear dr) K/r cells. */
+/* Size of the area of the pattern, in cells, that one ray stands for: sum and product of the squared semi-axes of the
+ * ray's footprint. A step (dr, r dphi) on the disk is a step of (dr, r dphi + shear dr) K/r cells. */
 struct kd_gas_steps { float sum, product; };
 
 kd_gas_steps kd_gas_footprint(kd_sample s)
@@ -112,21 +114,22 @@ kd_gas_steps kd_gas_footprint(kd_sample s)
     uint bits = floatBitsToUint(s.shape);
     float i = float(bits & 2047u) * (1.0 / 2047.0), j = float((bits >> 11) & 2047u) * (2.0 / 2047.0) - 1.0;
     float both = i * (1.0 - i), apart = i - 0.5, per = s.w * s.footprint * emission.gas.cells;
-    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both)); /* M_rr + M_ff, from the long axis */
+    /* M_rr + M_ff, which follows from the long axis of the footprint */
+    float all = per * per / (0.5 + sqrt(apart * apart + j * j * both));
     float c = j * sqrt(both), shear = emission.gas.shear;
     return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
 }
 
-/* Fraction of an octave that remains in the mean over a ray's footprint. Averaged along a line of q cells, this noise
- * has about the variance that it has at a point, divided by 1 + 0.66 q^2. The fraction is set to 0 where it is small,
- * to avoid flickering aliases; the loop over octaves ends there. */
+/* Fraction of an octave that remains in the mean over a ray's footprint. The mean of this noise along a line of q cells
+ * has about 1/(1 + 0.66 q^2) of the variance at a point. Where the fraction is small, it is set to 0, because aliases
+ * would flicker. The loop over octaves ends there. */
 float kd_gas_left(kd_gas_steps q)
 {
     float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
     return cut * cut * (3.0 - 2.0 * cut) * inversesqrt(fine);
 }
 
-/* ln of the factor by which flux and depth are multiplied. */
+/* The exponent n - sum s_k^2/2 of the factor by which flux and depth are multiplied. */
 float kd_gas_excess(kd_sample s)
 {
     float u = max(-(log2(s.w) + emission.gas.first) * (0.69314718 / KD_GAS_RING), 0.0), j = floor(u), x = u - j;
@@ -143,7 +146,7 @@ float kd_gas_excess(kd_sample s)
     do {
         float part = loud * left;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
-        if (left > 0.0) /* also false for NaN, which comes from an infinite footprint */
+        if (left > 0.0) /* this test is also false for NaN, which comes from an infinite footprint */
             sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
         loud *= emission.gas.persistence;
         steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
@@ -160,12 +163,14 @@ kd_glow kd_gas_glow(kd_sample s)
     float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t, flux = t2 * t2;
-        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth is computed from the whole flux */
+        /* the depth is computed from the whole flux, including reflected light */
+        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) {
             vec2 light = kd_disk_dilute(s.w), square = light * light;
             flux += light.y * square.x * square.x;
         }
         float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
-        /* where alpha is 0, g may be NaN: inside the photon orbit there is no u^t */
+        /* where alpha is 0, the opacity stays 0: g may be NaN there, because u^t does not exist inside the photon orbit
+         */
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0;
     }
     gas.t *= sqrt(sqrt(more));

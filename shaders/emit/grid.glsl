@@ -1,9 +1,9 @@
 /* Matter on a grid of nodes. Values are interpolated linearly in log r, in columns of theta, in phi and in time. The
- * buffer plasma_grid has one or two quads a node, frame after frame, then the table of uneven columns
- * (src/render/emit/matter_grid.h). Included by emit/plasma.glsl. */
+ * buffer plasma_grid holds one or two quads for each node of each frame, and then the table of uneven columns
+ * (src/render/emit/matter_grid.h). emit/plasma.glsl includes this file. */
 
-/* Interpolated values. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r
- * b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
+/* Interpolated values. matter: log2 of density, log2 of Theta, u^r, and r u^theta. rest: u_phi/(r sin^2 theta), and the
+ * field's b^r, r b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
 struct kd_grid_node { vec4 matter, rest; };
 
 const bool KD_GRID_SERIES = (TRAITS_plasma & KD_TRAIT_PLASMA_SERIES) != 0u,
@@ -16,7 +16,8 @@ kd_grid_node kd_grid_whole(uint node)
     return kd_grid_node(uintBitsToFloat(kd_grid_quad(2u * node)), uintBitsToFloat(kd_grid_quad(2u * node + 1u)));
 }
 
-/* A packed node has density and Theta as fractions of their ranges in 16 bits each, and six half floats. */
+/* Reads a packed node. It holds density and Theta as fractions of their ranges, in 16 bits each, and six half floats.
+ */
 kd_grid_node kd_grid_packed(uint node)
 {
     uvec4 words = kd_grid_quad(node);
@@ -34,8 +35,8 @@ void kd_grid_add(inout kd_grid_node sum, kd_grid_node one, float weight)
     sum.rest += weight * one.rest;
 }
 
-/* phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi: int a/Delta dr = a/(r+ - r-) ln((r - r+)/(r - r-))
- * = -a/(r - 1) artanh(x)/x, x = (r+ - 1)/(r - 1). */
+/* Difference of azimuths: phi of ingoing Kerr-Schild coordinates minus Boyer-Lindquist phi. It is int a/Delta dr =
+ * a/(r+ - r-) ln((r - r+)/(r - r-)) = -a/(r - 1) artanh(x)/x, with x = (r+ - 1)/(r - 1). */
 float kd_grid_fallen(float r)
 {
     float x = min(cam.root / max(r - 1.0, 1e-6), 0.999999), x2 = x * x;
@@ -43,14 +44,15 @@ float kd_grid_fallen(float r)
            (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
 }
 
-/* Time of ingoing Kerr-Schild coordinates minus Boyer-Lindquist time. The advanced time has dv = dt + dr (r^2 +
- * a^2)/Delta (B. Carter 1968, Phys. Rev. 174, 1559), and the time of Kerr-Schild coordinates is v - r. The difference
- * is int (2r - q^2)/Delta dr = ln(Delta/4) + (2 - q^2) int dr/Delta, because Delta' = 2r - 2. Without spin and charge
- * it is 2 ln(r/2 - 1). This difference falls without bound at the horizon. So does the time at which light left there;
- * the two add up, and nothing cancels. */
+/* Difference of times: time of ingoing Kerr-Schild coordinates minus Boyer-Lindquist time. The advanced time v has dv =
+ * dt + dr (r^2 + a^2)/Delta (B. Carter 1968, Phys. Rev. 174, 1559), and the time of Kerr-Schild coordinates is v - r.
+ * The difference is int (2r - q^2)/Delta dr = ln(Delta/4) + (2 - q^2) int dr/Delta, because Delta' = 2r - 2. Without
+ * spin and charge it is 2 ln(r/2 - 1). This difference decreases without bound towards the horizon. The Boyer-Lindquist
+ * time at which light left does the same. The two are added, so there is no cancellation. */
 float kd_grid_later(float w) { return kd_log(0.25 * kd_horizons(w, cam.root) / (w * w)) - kd_late(w); }
 
-/* The frame at a place, as a number with a fraction. Before the first frame and after the last one, that frame. */
+/* Number of the frame at a place, with a fraction between two frames. Before the first frame it is the first, and after
+ * the last frame the last. */
 float kd_grid_frame(kd_midst p)
 {
     float at = emission.plasma.grid_now;
@@ -64,7 +66,7 @@ float kd_grid_frame(kd_midst p)
     return at > 0.0 ? min(at, float(emission.plasma.grid_frames - 1u)) : 0.0;
 }
 
-/* The row and the column at a place, with their fractions, and columns per radian of theta there. */
+/* Row and column at a place, both with fractions, and the number of columns per radian of theta there. */
 struct kd_grid_place { float row, column, per_theta; };
 kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
 {
@@ -89,8 +91,8 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     return at;
 }
 
-/* Adds the nodes at the corners of a cell, in the two layers next to the place, and in the two frames about its time.
- * node: reads a node. */
+/* Sums the nodes at the corners of a cell, with weights: in the two layers next to the place, and in the two frames
+ * about its time. node: function that reads a node. */
 #define KD_GRID_SUM(node, times) \
     for (uint m = 0u; m < (times); m++) { \
         uint n = KD_GRID_SERIES && m >= rounds ? m - rounds : m, k = first + n, from = at + (k < layers ? k : 0u); \
@@ -126,7 +128,7 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     }
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops instead of an if, as above; one of the two has no rounds */
+    /* loops instead of an if, as above; one of the two loops has no rounds */
     KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? times : 0u)
     KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : times)
     return sum;
@@ -134,7 +136,8 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
 
 /* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
  * one of the finest rows that a grid may have. Columns and layers next to the axis are finer, but the grain does not
- * follow them. In slow light a frame is an edge, too; time passes about as fast as for light along the radius. */
+ * follow them. With slow light, frames are edges as well; their distance along the ray is estimated as if the light
+ * moved along the radius. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);

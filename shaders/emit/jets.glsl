@@ -7,11 +7,11 @@
  * and in the frame of the matter the energy -k.U = Gamma (e - beta k_r).
  *
  * A spectrum j_nu ~ nu^-alpha keeps its shape under a shift, and j_nu/nu^2 is invariant. Per unit of the observer's
- * affine parameter light is therefore g^(2 + alpha) j with g = 1/(-k.U), which is the D^(2 + alpha) of a steady jet
- * (Lind & Blandford 1985, ApJ 295, 358).
+ * affine parameter the emitted light is therefore g^(2 + alpha) j with g = 1/(-k.U). The factor is the D^(2 + alpha) of
+ * a steady jet (Lind & Blandford 1985, ApJ 295, 358).
  *
- * Profile across, with x = tan(theta)/tan(opening): a spine (1 - x^2)^2 and a sheath 27/4 x^2 (1 - x^2)^2. Profile
- * along: (r/inner)^-falloff, with smooth ends. */
+ * Across the jet, with x = tan(theta)/tan(opening), light has the profile of a spine, (1 - x^2)^2, and of a sheath,
+ * 27/4 x^2 (1 - x^2)^2. Along the jet it has the profile (r/inner)^-falloff, with smooth ends. */
 #ifndef KD_BLOCK_jets
 #define KD_JETS_RISE 0.5 /* fraction of the inner radius over which light rises */
 #define KD_JETS_FADE 0.3 /* fraction of the outer radius over which light fades */
@@ -20,14 +20,14 @@
     F(inner) F(outer)      /* M */ \
     F(cot)                 /* 1/tan of the opening angle */ \
     F(tan_)                /* tangent of the opening angle */ \
-    /* log2 of the light per length, 1/M, at the spine's inner edge, in units of the disk's largest surface \
+    /* log2 of the light per M of length at the spine's inner edge, in units of the disk's largest surface \
      * brightness */ \
     F(brightness) \
     F(sheath)              /* the sheath's fraction of the light, 0 to 1 */ \
-    F(falloff) F(power)    /* power: 2 + alpha */ \
+    F(falloff) F(power)    /* falloff: exponent of the profile along the jet. power: 2 + alpha */ \
     F(gamma) F(gamma_beta) \
-    F(counter)             /* light of the lower jet over that of the upper one */ \
-    F(temperature)         /* K: temperature of the black body that has the colour of the light */
+    F(counter)             /* ratio of the lower jet's light to the upper jet's */ \
+    F(temperature)         /* temperature of the black body that has the colour of the light, K */
 /* clang-format on */
 #define KD_TABLES_jets(T)
 #define KD_TRAITS_jets(T)
@@ -36,10 +36,10 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is computed as
- * across^2/(e + k_r), with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2
- * = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma
- * across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
+/* The photon's energy -k.U in the frame of the matter, computed without a difference of nearly equal numbers. For light
+ * along the jet, e - k_r is across^2/(e + k_r), with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A
+ * sin^2))/Sigma. By p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no
+ * sine in a denominator: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
 float kd_jets_energy(kd_midst p)
 {
     kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
@@ -63,14 +63,15 @@ kd_medium kd_jets_along(kd_midst p)
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness are computed in one exponential. g to the 12th may be 2^92, and r/inner to the
-     * 10th may be 2^199. If they were computed separately, they would overflow even if their product is 1. */
+    /* Both powers and the brightness are computed in one exponential. Separately they could overflow even if their
+     * product is 1: the 12th power of g may be 2^92, and the 10th power of r/inner 2^199. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));
     float side = p.u > 0.0 ? 1.0 : emission.jets.counter;
     light *= side * across * along;
-    /* Outside the jet the grain is the distance to the cone, but not less than the cone's smooth edge requires. */
+    /* Outside the jet the grain is the distance to the cone. It is at least the grain that the cone's smooth edge
+     * needs. */
     float away =
         max(r * (s - c * emission.jets.tan_) * inversesqrt(1.0 + emission.jets.tan_ * emission.jets.tan_), 0.0);
     float grain = min(max(away, 0.25 * width), r);

@@ -1,13 +1,14 @@
-/* The light of a lamp on the axis, as the gas of the plane receives it. No light of its own: the flash reads the
- * table. */
+/* The light of a lamp on the axis, as the gas of the plane receives it. This emitter has no light of its own; the flash
+ * reads its table. */
 #ifndef KD_BLOCK_lamp
 #define KD_LAMP_TABLE 512
 /* clang-format off */
 #define KD_BLOCK_lamp(F, U, A) \
-    F(first) F(per_row)    /* ln r of the first row; rows for each unit of ln r */
+    F(first) F(per_row)    /* ln r of the first row; number of rows per unit of ln r */
 /* clang-format on */
-/* lamp: for light that goes from the lamp to r, the coordinate time minus r, and its difference to the next row. Then
- * r^3 times the light that the gas receives, divided by the largest on the disk, and its difference to the next row. */
+/* The table `lamp` holds four numbers for each r. For light that goes from the lamp to r: the coordinate time minus r,
+ * and its difference to the next row. Then r^3 times the light that the gas receives, divided by its largest value on
+ * the disk, and its difference to the next row. */
 #define KD_TABLES_lamp(T) T(lamp, KD_LAMP_TABLE)
 #define KD_TRAITS_lamp(T)
 #define KD_BUFFERS_lamp(B)
@@ -15,7 +16,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Time of the light from the lamp to r = 1/w, minus r; and the light received there. */
+/* The table's values at r = 1/w: the time of the light from the lamp minus r, and the light that the gas receives. */
 vec2 kd_lamp_at(float w)
 {
     float at = max((-log(w) - emission.lamp.first) * emission.lamp.per_row, 0.0);

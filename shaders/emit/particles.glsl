@@ -3,25 +3,25 @@
 #ifndef KD_BLOCK_particles
 /* clang-format off */
 #define KD_BLOCK_particles(F, U, A) \
-    U(rows) U(columns)     /* intervals of the grid; columns a power of 2 */ \
-    F(rows_octave)         /* rows in which r doubles */
+    U(rows) U(columns)     /* number of intervals along r; number of columns, a power of 2 */ \
+    F(rows_octave)         /* number of rows in which r doubles */
 /* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
-/* the density on the disk's grid, then that on the grid of plunge.glsl */
+/* the density on the disk's grid, followed by the density on the grid of plunge.glsl */
 #define KD_BUFFERS_particles(B) B(0, floats, density)
 #define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids. The grid begins at node `first`. The place has a row, and an azimuth in turns on the
- * rows before and after it. */
+/* A place on one of the grids. The grid begins at node `first`. The place has a row with a fraction, and an azimuth in
+ * turns for each of the two rows about it. */
 struct kd_density_place {
     uint first, rows, columns;
     float row, before, after;
 };
 
-/* Number of turns by which matter that rotates with a row's Omega advances in the time `ago`. */
+/* Number of turns by which matter that rotates with a row's Omega advances in the time `ago`, M. */
 float kd_particles_ahead(uint row, float ago)
 {
     float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
@@ -64,7 +64,8 @@ bool kd_plunge_falls(kd_sample s);
 kd_density_place kd_plunge_place(kd_sample s, float turn);
 kd_gas kd_plunge_gas(kd_sample s, float number);
 
-/* Orbiting and plunging particles (plunge.glsl) share one read of the grids and one evaluation of the black body. */
+/* Light of the particles. Orbiting and plunging particles (plunge.glsl) share one read of the grids and one evaluation
+ * of the black body. */
 kd_glow kd_particles_glow(kd_sample s)
 {
     float turn = kd_sample_turn(s);

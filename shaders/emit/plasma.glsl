@@ -1,48 +1,51 @@
-/* Matter at one radio frequency: the analytic model of R. Gold et al. 2020 (ApJ 897, 148), and hot electrons in a
- * magnetic field by power laws, as used by A. E. Broderick, H.-Y. Pu and others. The state at a point is one struct,
- * kd_plasma. Light and, if requested, polarisation follow from it.
+/* Matter that radiates at one radio frequency. It follows the analytic model of R. Gold et al. 2020 (ApJ 897, 148), or
+ * consists of hot electrons in a magnetic field. Power laws give the electrons' density and temperature, as in work by
+ * A. E. Broderick, H.-Y. Pu and others. The struct kd_plasma is the state at a point; light and, if requested,
+ * polarisation follow from it.
  *
- * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of that
- * parameter, light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu. The reason is that I/nu^3,
- * j/nu^2 and alpha nu are invariant (Rybicki & Lightman 1979, 4.9). nu/nu_obs is -k.u. */
+ * nu_obs is the observed frequency, and nu the frequency in the frame of the matter; nu/nu_obs is -k.u. The affine
+ * parameter is scaled such that the observer measures the photon energy 1. Per unit of that parameter, light grows by
+ * (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu, because I/nu^3, j/nu^2 and alpha nu are invariant
+ * (Rybicki & Lightman 1979, 4.9). */
 #ifndef KD_BLOCK_plasma
 /* clang-format off */
 #define KD_BLOCK_plasma(F, U, A) \
     F(inner) F(outer)      /* M */ \
-    F(frequency)           /* log2 of the observed frequency, GHz */ \
-    F(light) F(depth)      /* log2 of the units of light and of optical depth in kd_radiates, per M of length */ \
-    F(gold_light) F(gold_depth) /* log2 of light and depth of a length M at density 1, at 230 GHz */ \
+    F(frequency)           /* log2 of the observed frequency in GHz */ \
+    F(light) F(depth)      /* log2 of the units of light and of depth in kd_radiates, per M */ \
+    F(gold_light) F(gold_depth) /* Gold et al.: log2 of light and depth per M, at density 1 and 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
-    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; power of r at which it falls */ \
-    F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; power of r at which it falls */ \
-    F(steep)               /* distance from the axis over scale height; 0: no layer */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
-    F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density's power of h - 1 */ \
-    U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
-    U(grid_steps) U(grid_place_rows) /* cells in theta, and rows, of the table of uneven columns; 0: they are even */ \
-    /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
+    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; exponent of its decrease with r */ \
+    F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; exponent of its decrease with r */ \
+    F(steep)               /* ratio of distance from the axis to scale height; 0 if there is no layer */ \
+    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; exponent of its decrease with r */ \
+    F(power_index) F(power_light) F(power_depth) /* power law: index, factor of light, factor of depth */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* torus: angular momentum, offset of ln h, exponent of h - 1 */ \
+    U(grid_rows) U(grid_columns) U(grid_layers) /* numbers of nodes in r, theta, phi; 1 in phi: axisymmetric */ \
+    U(grid_steps) U(grid_place_rows) /* uneven columns: cells in theta (0: even), rows of the table */ \
+    /* for each direction: coordinate of the first node (log2 for r), and number of nodes per unit */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
-    F(grid_fall)           /* a if the grid's phi is an ingoing coordinate; else 0 */ \
+    F(grid_fall)           /* a if the grid's phi is an ingoing coordinate, otherwise 0 */ \
     F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
-    U(grid_frames)         /* frames in time, each with all nodes, one after the other */ \
-    F(grid_now) F(grid_per_time) /* the frame at the scene's time, as a number with a fraction; frames per M */ \
-    F(grid_late)           /* 1 if the grid's time is that of ingoing coordinates; else 0 */ \
-    U(grid_packed)         /* 1: a node is one quad, else two */ \
-    /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
+    U(grid_frames)         /* number of frames in time; all nodes of a frame precede the next frame */ \
+    F(grid_now) F(grid_per_time) /* number of the frame at the scene's time, with a fraction; frames per M */ \
+    F(grid_late)           /* 1 if the grid's time is that of ingoing coordinates, otherwise 0 */ \
+    U(grid_packed)         /* 1 if a node is one quad, 0 if it is two */ \
+    /* packed nodes: least values and ranges of log2 density and of log2 Theta; units of velocity and of field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
-    F(kappa) F(kappa_width) /* for a kappa distribution: `kappa` is log2(kappa - 3); */ \
-    /* the other numbers are as in physics/disk/synchrotron.h */ \
+    F(kappa) F(kappa_width) /* for a kappa distribution. `kappa` is log2(kappa - 3). */ \
+    /* the others are named as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
 /* clang-format on */
 #define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row */
-#define KD_KAPPA_OCTAVE 16   /* rows for each octave */
+#define KD_KAPPA_OCTAVE 16   /* number of rows for each octave of z */
 #define KD_KAPPA_ROWS 640
-#define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS) /* log2 of F(z), and its difference to the next row */
+/* log2 of F(z), and the difference of this value to the next row */
+#define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS)
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis */
-#define KD_TRAIT_PLASMA_RADIAL 8u   /* the field is along the radius; without both traits it is round the axis */
+#define KD_TRAIT_PLASMA_RADIAL 8u   /* the field is along the radius. If neither trait is set, it is round the axis */
 #define KD_TRAIT_PLASMA_REST \
     512u /* the matter is at rest for observers of zero angular momentum; otherwise it orbits and falls in */
 #define KD_TRAIT_PLASMA_POWER 64u /* the electrons have a power law */
@@ -61,14 +64,14 @@
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* stands for log2(h - 1) if h is 1 */
 #define KD_PLASMA_SEEN \
-    7.0 /* scale heights from the plane; beyond, the density is below 2e-11 of that in the plane and is taken as 0 */
+    7.0 /* in scale heights; beyond this the density is taken as 0, as it is below 2e-11 of that in the plane */
 #endif
 
 #ifdef KD_EMIT_CODE
 #include "emit/synchrotron.glsl"
 
-/* The metric at a place, relative to observers of zero angular momentum. lapse2, omega: square of their lapse, and
- * their angular velocity. round_: g_phiphi. radial: g_rr. sigma: Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
+/* The metric at a place, as observers of zero angular momentum measure it (Bardeen, Press & Teukolsky 1972). lapse2:
+ * square of their lapse. omega: their angular velocity. round_: g_phiphi. radial: g_rr. sigma: Sigma/r^2. */
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
 {
@@ -78,12 +81,12 @@ kd_metric kd_metric_at(float w, float u)
                      at.sigma);
 }
 
-/* Velocity of matter. time: u^t. round_: u_phi, where u^phi - omega u^t = u_phi/g_phiphi. out_: u^r. down: u^theta,
- * which is 0 except on a grid. */
+/* Velocity of matter. time: u^t. round_: u_phi, from which u^phi = omega u^t + u_phi/g_phiphi. out_: u^r. down:
+ * u^theta, which is 0 except on a grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
-/* -k.u from the photon's E, L and p_r. */
+/* The photon's energy -k.u in the frame of the matter, from the photon's E, L and p_r. */
 float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
 {
     float energy = v.time * (p.energy - g.omega * p.momentum) - v.round_ * p.momentum / g.round_ -
@@ -93,7 +96,7 @@ float kd_flow_energy(kd_flow v, kd_metric g, kd_midst p)
     return max(energy, 1e-12);
 }
 
-/* Gold et al.: u_mu = u_t (1, 0, 0, -l), l = l0 R^(3/2)/(1 + R), R = r sin(theta). */
+/* Velocity in the model of Gold et al.: u_mu = u_t (1, 0, 0, -l), with l = l0 R^(3/2)/(1 + R) and R = r sin(theta). */
 kd_flow kd_flow_gold(kd_metric g, kd_midst p)
 {
     float axis = sqrt(max(1.0 - p.u * p.u, 0.0)) / p.w,
@@ -102,18 +105,18 @@ kd_flow kd_flow_gold(kd_metric g, kd_midst p)
     return kd_flow(scale * seen / g.lapse2, scale * l, 0.0, 0.0);
 }
 
-/* Matter with the angular velocity of the circular orbit at its r, at any latitude. */
+/* Velocity of matter that has, at any latitude, the angular velocity of the circular orbit at its r. */
 kd_flow kd_flow_round(kd_metric g, float r)
 {
     float past = 1.0 / kd_circle_time(r) - g.omega, time = inversesqrt(max(g.lapse2 - g.round_ * past * past, 1e-12));
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude, and stays at that latitude
- * (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4). Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m)
- * l^2/sin^2 - Sigma Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO. After division by r - r_isco
- * it contains no difference of nearly equal numbers. Off the plane it may be negative; there matter rotates with the
- * angular velocity of e and l. */
+/* Velocity of matter inside the ISCO. It stays at its latitude, and keeps the energy e and the angular momentum l that
+ * it has at the ISCO at that latitude (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4). Then Sigma^2 (u^r)^2 = A e^2
+ * - 2 a m e l - (Sigma - m) l^2/sin^2 - Sigma Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO. The
+ * quartic is computed as a product with r - r_isco, which avoids differences of nearly equal numbers. Off the plane the
+ * quartic may be negative; matter there does not fall, and rotates with the angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -139,11 +142,11 @@ float kd_less_ln(float z)
                      : -log(1.0 - z);
 }
 
-/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): u^t u_phi = l everywhere. With u_phi^2 = g_phiphi U^2
- * and u^t = sqrt(1 + U^2)/lapse this is U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4. Equation 3.6 is ln h = ln((1 +
- * sqrt(1 + q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l. ln h is about a hundredth, a difference of numbers near 1.
- * Therefore U^2 = (sqrt(1 + q) - 1)/2 is used, which contributes ln(1 + U^2)/2 - U^2, and 1 - lapse^2 = (2r - q^2) (r^2
- * + a^2)/A. */
+/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962), in which u^t u_phi = l everywhere. With u_phi^2 =
+ * g_phiphi U^2 and u^t = sqrt(1 + U^2)/lapse this condition is U^2 (1 + U^2) = l^2 lapse^2/g_phiphi = q/4. Their
+ * equation 3.6 is ln h = ln((1 + sqrt(1 + q))/lapse^2)/2 - sqrt(1 + q)/2 - omega l. ln h is about a hundredth, a
+ * difference of numbers near 1. Therefore the code computes it from two small numbers: from U^2 = (sqrt(1 + q) - 1)/2,
+ * which contributes ln(1 + U^2)/2 - U^2, and from 1 - lapse^2 = (2r - q^2) (r^2 + a^2)/A. */
 struct kd_equilibrium {
     kd_flow flow;
     float enthalpy;
@@ -159,9 +162,10 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* State of the matter at a place, for an arriving photon. energy: -k.u, the ratio of the frequency in the frame of the
- * matter to the observed one. frequency: log2 of the former in GHz. field: the unit vector along B, with b.u = 0, as
- * contravariant components t, r, theta, phi of Boyer-Lindquist coordinates. */
+/* State of the matter at a place, for a photon that arrives at the observer. energy: -k.u, the ratio of the photon's
+ * frequency in the frame of the matter to the observed one. frequency: log2 of the frequency in the frame of the
+ * matter, in GHz. field: the unit vector along B, with b.u = 0, as contravariant components t, r, theta, phi of
+ * Boyer-Lindquist coordinates. */
 struct kd_plasma {
     kd_electrons electrons;
     kd_flow flow;
@@ -170,14 +174,14 @@ struct kd_plasma {
     vec4 field;
 };
 
-/* Makes a direction e perpendicular to u: b = e + (e.u) u, k.b = k.e - energy e.u. e has the components r, theta times
- * 1/sin(theta), and phi. */
+/* Makes a direction e of the field perpendicular to u. The result is b = e + (e.u) u, and k.b = k.e - energy e.u. e has
+ * the components along r, theta (times 1/sin(theta)) and phi. */
 void kd_plasma_field(inout kd_plasma m, kd_midst p)
 {
     float s = sqrt(max(1.0 - p.u * p.u, 1e-12)), r2 = 1.0 / (p.w * p.w), out_ = 0.0, down = 0.0, round_ = 0.0;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_VERTICAL) != 0u) {
         out_ = p.u;
-        down = -p.w; /* times sin(theta) */
+        down = -p.w; /* component along theta, times sin(theta) */
     } else if ((TRAITS_plasma & KD_TRAIT_PLASMA_RADIAL) != 0u)
         out_ = 1.0;
     else
@@ -195,10 +199,10 @@ void kd_plasma_field(inout kd_plasma m, kd_midst p)
 
 #include "emit/grid.glsl"
 
-/* Any u^r, u^theta and u_phi belong to a timelike unit vector: -lapse^2 (u^t)^2 = -1 - U^2, where U are the components
- * of the velocity for the observer of zero angular momentum. Let B be the same components of b. Then b.u = 0 gives
- * lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 + U^2). These forms have no difference of large numbers
- * near the horizon. */
+/* State of the matter on a grid. Any values of u^r, u^theta and u_phi belong to a timelike unit vector, because
+ * -lapse^2 (u^t)^2 = -1 - U^2. Here U has the components of the velocity for the observer of zero angular momentum. Let
+ * B be the same components of b. Then b.u = 0 gives lapse b^t = B.U/sqrt(1 + U^2), and b^2 = (B^2 + (B x U)^2)/(1 +
+ * U^2). These forms have no difference of large numbers near the horizon. */
 kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 {
     kd_plasma m;
@@ -229,7 +233,7 @@ kd_plasma kd_plasma_of_grid(kd_midst p, float log2_r)
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2); /* emit/stokes.glsl */
 #endif
 
-/* Matter at a place: electrons by power laws of r, in a layer about the plane; or the electrons of a torus. */
+/* State of the matter at a place: electrons in a layer about the plane, by power laws of r; or electrons of a torus. */
 kd_plasma kd_plasma_at(kd_midst p)
 {
     if (KD_PLASMA_GRID)
@@ -265,14 +269,14 @@ kd_plasma kd_plasma_at(kd_midst p)
     return m;
 }
 
-/* log2((2^-sa + 2^-sb)^(-1/s)): a smooth minimum of a and b, which is sharper for larger s. */
+/* Smooth minimum of a and b, which is sharper for larger s: log2((2^-sa + 2^-sb)^(-1/s)). */
 float kd_log2_joined(float a, float b, float s)
 {
     return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s;
 }
 
-/* A kappa distribution (physics/disk/synchrotron.h): log2 of z and X, and of the four laws for low and high
- * frequencies. */
+/* Values for a kappa distribution (physics/disk/synchrotron.h): log2 of z, of X, and of the laws of light and depth for
+ * low and for high frequencies. */
 struct kd_kappa_laws { float z, x, light_low, light_high, depth_low, depth_high; };
 kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
 {
@@ -283,7 +287,7 @@ kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
           row = floor(place);
     vec4 f = kd_table_row(kappa, uint(row));
     float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0),
-          size = f.x + (place - row) * f.y + below; /* z^a for small z */
+          size = f.x + (place - row) * f.y + below; /* below the table's first row, the law z^a */
     return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0),
                          emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x,
                          emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),
@@ -309,9 +313,10 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* Makes the medium from logarithms. Where the depth exceeds 2^24 per length, light and depth are reduced by the same
- * factor. This is allowed because such matter shows only its own light. Light of such matter is correct up to 6e28 K.
- * Light of thin matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
+/* Makes the medium from the log2 of light and depth. Where the depth exceeds 2^24 per M, light and depth are reduced by
+ * the same factor. This changes nothing that is seen, because so opaque matter hides everything behind it. Light of
+ * such matter is correct up to 6e28 K. Light of thin matter is limited to 2^99 per length, beyond the range of layers
+ * (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);
@@ -321,7 +326,7 @@ kd_medium kd_plasma_medium(float light, float depth, float grain)
 }
 
 /* Distance along the ray, M, over which a layer exp(-x^2/2), x = steep u/sin(theta), and its field vary. Inside the
- * layer it follows from the layer's height and the place; outside it is the distance to the layer. sharp: `steep` of
+ * layer it follows from the layer's height and the place. Outside, it is the distance to the layer. sharp: `steep` of
  * kd_radiates. */
 float kd_plasma_grain(kd_midst p, float steep, float sharp)
 {
@@ -375,8 +380,7 @@ kd_medium kd_plasma_along(kd_midst p)
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        /* the distances to the edges. Edges may lie inside the bounds of other volumes, where the march does not search
-         * for them */
+        /* distances to the edges; the march does not search for edges that lie inside the bounds of other volumes */
         min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer));
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;

@@ -15,16 +15,16 @@
 #define KD_PLUNGE_TABLE 512
 /* clang-format off */
 #define KD_BLOCK_plunge(F, U, A) \
-    F(first) F(last)       /* w at the start and at the end of the plunge */ \
+    F(first) F(last)       /* w at the start of the plunge and at its end */ \
     F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
-    F(stretch) F(bend)     /* coefficients of u^r in the formula above; without charge 1 and 0 */ \
+    F(stretch) F(bend)     /* coefficients of u^r in the formula above; 1 and 0 without charge */ \
     F(temperature)         /* temperature, relative to the disk's largest */ \
-    F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
-    F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
-    F(laps) F(turns)       /* per M: fraction of the way from start to end, and turns of the orbit at the ISCO */ \
-    U(at)                  /* offset of this grid, which follows the grid of the other particles */ \
+    F(depth)               /* optical depth at r |u^r| = 1, for the expected number of particles */ \
+    F(log_first) F(step_)  /* first argument of the table; number of entries per unit of the argument */ \
+    F(laps) F(turns)       /* per M of time: fraction of the plunge, and turns at the ISCO */ \
+    U(at)                  /* offset of this grid in the buffer, after the grid of the other particles */ \
     U(rows) U(columns) \
-    U(lap_rows) U(lead_rows) /* rows from start to end; rows before the start */
+    U(lap_rows) U(lead_rows) /* number of rows from start to end; number of rows before the start */
 /* clang-format on */
 #define KD_TABLES_plunge(T) \
     T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
@@ -34,8 +34,8 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Place on the grid of phases and azimuths at the ISCO. The matter is shown as it is now or, with slow light, as it was
- * the time `ago` before. */
+/* Place on the grid of phases and azimuths at the ISCO. With slow light the matter is shown as it was at the time `ago`
+ * before now; otherwise as it is now. */
 kd_density_place kd_plunge_place(kd_sample s, float turn)
 {
     float way = log2((emission.frame.r_isco * s.w - 1.0) / (1.0 - s.w / cam.horizon));
@@ -57,7 +57,7 @@ float kd_plunge_speed(float w)
     return -sqrt(gap * (2.0 / 3.0) / r0 * (emission.plunge.stretch - emission.plunge.bend * gap)) * gap;
 }
 
-/* g from Doppler shift and gravity together, or from only one of the two. */
+/* The shift g from both effects, Doppler shift and gravity, or from only one of them. */
 float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);
@@ -76,7 +76,7 @@ float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
     return g;
 }
 
-/* The gas as seen, for this ratio of the number of particles to the expected number. */
+/* The gas as the observer sees it. number: ratio of the number of particles to the expected number. */
 kd_gas kd_plunge_gas(kd_sample s, float number)
 {
     float g = kd_plunge_shift(s, (TRAITS_plunge & KD_TRAIT_DOPPLER) != 0u, (TRAITS_plunge & KD_TRAIT_REDSHIFT) != 0u);
@@ -84,7 +84,7 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
     return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(depth)));
 }
 
-/* True if a crossing is where the gas plunges. */
+/* True if the gas at a crossing plunges. */
 bool kd_plunge_falls(kd_sample s)
 {
     return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last;

@@ -1,34 +1,34 @@
 /* The sky: light from infinity, where escaping rays end.
  *
- * Model "grid": a celestial sphere with four quadrants in quiet colours, and with meridians and parallels in white; a
- * line's width is a fortieth of the spacing. All other models: diffuse light, and stars.
+ * The model "grid" is a celestial sphere with four quadrants in quiet colours, and with meridians and parallels in
+ * white; a line's width is a fortieth of the spacing. All other models have diffuse light and stars.
  *
  * Diffuse light is a panorama in galactic coordinates (src/render/sky/panorama.h), interpolated between the two levels
  * of its mips that fit a ray's footprint. Texels are interpolated by a quadratic B-spline, which shows no corners when
- * the picture is magnified. Stars are points. comp/star_images.comp has already spread each of their images over some
- * pixels. This light is read here, with 64 bits a channel.
+ * the picture is magnified. Stars are points. comp/star_images.comp has already spread each image of a star over some
+ * pixels. The sky reads this light, with 64 bits a channel.
  *
- * By Liouville's theorem I_nu/nu^3 is constant along a ray. A black body of temperature T is therefore seen as one of g
- * T, with a bolometric intensity g^4 times as large. g = 1/E, where E is the energy at infinity of light that the
- * observer measures as 1. A star's flux changes in the same way, and is multiplied by the magnification of its solid
- * angle. Diffuse light is shifted like the light of a black body of KD_SKY_KELVIN. */
+ * By Liouville's theorem I_nu/nu^3 is constant along a ray. A black body of temperature T is therefore seen as a black
+ * body of temperature g T, with a bolometric intensity g^4 times as large. g = 1/E, where E is the energy at infinity
+ * of light that the observer measures as 1. A star's flux changes in the same way, and is multiplied by the
+ * magnification of its solid angle. Diffuse light is shifted like the light of a black body of KD_SKY_KELVIN. */
 #ifndef KD_BLOCK_sky
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \
     F(brightness) \
     F(spacing)             /* spacing of the grid, radians */ \
-    F(spread)              /* brightness of the panorama */ \
-    U(columns) U(rows)     /* size of the panorama's finest level; powers of two */ \
-    F(texel)               /* log2 of a texel's size, radians */ \
+    F(spread)              /* factor for the brightness of the panorama */ \
+    U(columns) U(rows)     /* columns and rows of the panorama's finest level; both are powers of two */ \
+    F(texel)               /* log2 of the size of a texel of the finest level, radians */ \
     /* rows of the rotation from directions, with azimuths minus the observer's, to galactic directions */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
 /* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u
 #define KD_TRAIT_SKY_SPREAD 128u
 #define KD_SKY_KELVIN 5600.0
-/* words a pixel: for each of red, green and blue the lower 32 bits and the upper 32 bits */
+/* words for each pixel: the lower and the upper 32 bits of red, then of green, then of blue */
 #define KD_STAR_LIGHT 6
-#define KD_STAR_UNIT 268435456.0 /* 2^28: the value of 1 in these words */
+#define KD_STAR_UNIT 268435456.0 /* 2^28, the value that stands for 1 in these words */
 #define KD_TABLES_sky(T)
 #define KD_TRAITS_sky(T) T(VISIBLE) T(SKY_GRID) T(SKY_SPREAD) T(POINTS) T(SPREAD)
 #define KD_BUFFERS_sky(B) B(1, words, panorama) B(2, pairs, point_light)
@@ -36,7 +36,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Observed light of a black body that has temperature T and luminance 1 at g = 1. */
+/* Observed light of a black body. kelvin: its temperature. At g = 1 its luminance is 1. */
 vec3 kd_sky_shifted(float kelvin, float g, uint traits)
 {
     kd_colour_place seen = kd_colour_at(g * kelvin);
@@ -46,7 +46,7 @@ vec3 kd_sky_shifted(float kelvin, float g, uint traits)
     return weight * kd_colour_of(seen);
 }
 
-/* Rotates from the hole's frame to the galactic one. */
+/* Rotates a direction from the hole's frame to the galactic frame. */
 vec3 kd_sky_galactic(vec3 n)
 {
     return vec3(emission.sky.xx * n.x + emission.sky.xy * n.y + emission.sky.xz * n.z,
@@ -69,7 +69,7 @@ vec3 kd_sky_texel(uint word)
            vec3(float(word & 511u), float((word >> 9) & 511u), float((word >> 18) & 511u));
 }
 
-/* The panorama's value at (u, v) in [0, 1], on one level. */
+/* The panorama's value at (u, v) in [0, 1], interpolated on one level of the mips. */
 vec3 kd_sky_level(vec2 at, uint level)
 {
     uint columns = emission.sky.columns >> level, rows = emission.sky.rows >> level,
@@ -118,7 +118,7 @@ vec3 kd_sky_grid(float u, float phi)
     float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
     vec2 q = vec2(longitude, latitude) / emission.sky.spacing;
     vec2 d = abs(q - floor(q + 0.5));
-    d.x *= s; /* meridians keep their width towards the pole */
+    d.x *= s; /* divided by the sine of the polar angle, so that meridians keep their width towards the pole */
     float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
     vec3 base = longitude < KD_PI ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
                                   : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));

@@ -1,23 +1,23 @@
-/* Hot spots as an emitter. They are shown where they were when their light left them: `phi` decreases with the light
- * delay. `apart` is their luminance.
+/* Hot spots as an emitter. Spots are shown where they were when their light left them: `phi` decreases with the light
+ * delay. The luminance of the spots is kept separately, in `apart`.
  *
- * Light comes from the gas at each place, with the g of that gas's own orbit. The shape of a spot rotates with the
- * orbit of its centre, and matter shears through it. I_nu/nu^3 is constant along the ray, so I_nu ~ nu^-index is
- * multiplied by g^(3 + index). A. E. Broderick & A. Loeb 2006, MNRAS 367, 905, have such spots as spheres in a hot
+ * The light of each place has the g of the gas on the circular orbit there. The shape of a spot rotates with the orbit
+ * of the spot's centre, and gas shears through it. I_nu/nu^3 is constant along the ray, so a spectrum I_nu ~ nu^-index
+ * is multiplied by g^(3 + index). A. E. Broderick & A. Loeb 2006, MNRAS 367, 905, have such spots as spheres in a hot
  * flow. Spots are inside the gas, so the gas around a spot does not hide it. */
 #ifndef KD_BLOCK_spots
 #define KD_SPOT_MAX 16
 /* clang-format off */
 #define KD_BLOCK_spot(F, U) \
-    /* r of a spot's centre; the centre's azimuth minus the observer's at the time that the picture shows, radians */ \
+    /* r of the centre; azimuth of the centre minus the observer's at the time that the picture shows, radians */ \
     F(r) F(phi) \
     F(omega)                 /* decrease of phi for each M of light delay */ \
-    F(sharp) F(reach)        /* log2(e)/(2 size^2); square of the distance beyond which brightness is 0 */ \
-    F(brightness) F(power)   /* brightness at the centre; power of g */ \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); squared distance beyond which brightness is 0 */ \
+    F(brightness) F(power)   /* brightness at the centre; exponent of g, which is 3 + index */ \
     F(temperature)           /* K */
 /* clang-format on */
 #define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)
-#define KD_TRAIT_SPOTS_SHIFT 8u /* number of spots from this bit on */
+#define KD_TRAIT_SPOTS_SHIFT 8u /* from this bit on, the traits hold the number of spots */
 #define KD_TRAIT_SPOTS (31u << KD_TRAIT_SPOTS_SHIFT)
 #define KD_TABLES_spots(T)
 #define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(SEPARATE_PHOTOMETRY) T(SPOTS)

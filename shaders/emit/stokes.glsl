@@ -1,7 +1,7 @@
 /* Polarised synchrotron light of hot electrons in a magnetic field, and the effects of these electrons on passing
  * light: absorption of each polarisation, rotation of its direction (Faraday rotation), and conversion between linear
- * and circular polarisation. All coefficients are fits, with Q along the electric field perpendicular to the magnetic
- * one:
+ * and circular polarisation. Q > 0 is light whose electric field is perpendicular to the magnetic field. All
+ * coefficients are fits:
  *
  *   thermal     j_I and j_Q of A. Pandya et al. 2016 (ApJ 822, 34, equation 31); j_V/j_I and rho_Q of J. Dexter 2016
  *               (MNRAS 462, 115, A1 to A3, B4 to B13); rho_V of R. V. Shcherbakov 2008 (ApJ 688, 695, equation 33), or
@@ -14,20 +14,20 @@
  *               214, 522), as given by Dexter 2016 (B1 to B3), rho_Q with the sign of thermal electrons of the same
  *               mean energy: both are 2 <gamma> times the same numbers at high frequencies
  *
- * V > 0 rotates anticlockwise on the sky (IAU 1973), as does light of electrons whose field points to the observer.
- * rho_V > 0 rotates the angle from north to east.
+ * V > 0 means that the electric field rotates anticlockwise on the sky (IAU 1973). Electrons emit such light where the
+ * magnetic field points to the observer. rho_V > 0 rotates the angle from north to east.
  *
  * The constant of Walker & Penrose carries the direction of the field to the observer, as in emit/polarization.glsl.
  * Across the ray the field is b + cos(theta_B) u, up to a multiple of k. */
 #ifndef KD_BLOCK_stokes
 /* clang-format off */
 #define KD_BLOCK_stokes(F, U, A) \
-    F(turn) F(convert) /* log2 of the power law's factors of rho_V and rho_Q */ \
-    F(gamma2)          /* log2 of the square of the power law's least gamma */ \
+    F(turn) F(convert) /* log2 of the power law's factors: of rho_V, and of rho_Q */ \
+    F(gamma2)          /* log2 of the squared least gamma of the power law */ \
     /* parameters of a kappa distribution, as in physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
-    U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa; fraction of the way from it to the next one */ \
+    U(kappa_node) F(kappa_past) /* index of the next lower kappa of the fits; fraction of the way to the next */ \
     F(whole)           /* fraction of linear polarisation that remains in a disordered field */
 /* clang-format on */
 #define KD_TABLES_stokes(T)
@@ -46,14 +46,15 @@
           * it */
 
 /* State along the ray. here: the medium at the current place, per unit of the affine parameter. right: kappa of the
- * unit vector to the right of the ray. seen: Q, U and V so far. front: the effect of the medium passed so far on light
- * that comes from behind it. */
+ * unit vector to the right of the ray. seen: Q, U and V of the light so far. front: transfer of the medium passed so
+ * far, for light from behind that medium. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
 kd_jones kd_stokes_front = kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0));
 
-/* Ratios of modified Bessel functions of the argument 1/Theta: K0/K2, K1/K2, and 1/K2 (0 if 1/Theta is above 2). */
+/* Ratios of modified Bessel functions K0, K1, K2 of the argument 1/Theta: K0/K2, K1/K2, and 1/K2 (set to 0 if 1/Theta
+ * is above 2). */
 vec3 kd_stokes_bessel(float log2_heat)
 {
     float x = exp2(clamp(-log2_heat, -40.0, 40.0)), y = min(0.25 * x * x, 1.0), t = y * 0.28444444,
@@ -66,9 +67,9 @@ vec3 kd_stokes_bessel(float log2_heat)
         -l * i0 - 0.57721566 +
         y * (0.42278420 + y * (0.23069756 + y * (0.03488590 + y * (0.00262698 + y * (0.00010750 + y * 0.00000740)))));
     float k1 = 4.0 * y * l * i1 + 1.0 +
-               y * (0.15443144 +
-                    y * (-0.67278579 +
-                         y * (-0.18156897 + y * (-0.01919402 + y * (-0.00110404 - y * 0.00004686))))); /* times x */
+               y * (0.15443144 + y * (-0.67278579 +
+                                      /* the polynomial, times x */
+                                      y * (-0.18156897 + y * (-0.01919402 + y * (-0.00110404 - y * 0.00004686)))));
     float p0 =
         1.25331414 + z * (-0.07832358 +
                           z * (0.02189568 + z * (-0.01062446 + z * (0.00587872 + z * (-0.00251540 + z * 0.00053208)))));
@@ -79,7 +80,7 @@ vec3 kd_stokes_bessel(float log2_heat)
                    : vec3(p0, p1, 0.0) / (p0 + z * p1);
 }
 
-/* Dexter 2016, B8 and B13: rho_Q at high temperatures, over its high-frequency limit. */
+/* rho_Q at high temperatures divided by its limit for high frequencies (Dexter 2016, B8 and B13). */
 float kd_stokes_converts(float log2_x)
 {
     float x = exp2(clamp(log2_x, -40.0, 40.0)), far = max(x, 30.0);
@@ -89,13 +90,13 @@ float kd_stokes_converts(float log2_x)
            step_ * (tail - 369.7 * pow(far, -8.0 / 3.0));
 }
 
-/* rho_V of thermal electrons over 2 n e^2 nu_c cos(theta)/(m_e c nu^2):
+/* rho_V of thermal electrons, divided by 2 n e^2 nu_c cos(theta)/(m_e c nu^2):
  *
  *   Shcherbakov 2008   K0/K2 (1 - 0.11 ln(1 + 0.035 X))
  *   Dexter 2016        (K0 - 0.43793091 ln(1 + 0.00185777 X^1.50316886))/K2
  *
  * Dexter's form is a fit for hot electrons. For Theta below 1/2, where both forms are nearly K0/K2, Shcherbakov's is
- * used. k: from kd_stokes_bessel. */
+ * used. k: result of kd_stokes_bessel. */
 float kd_stokes_rotates(vec3 k, float log2_x)
 {
     float x = exp2(clamp(log2_x, -60.0, 60.0));
@@ -104,7 +105,8 @@ float kd_stokes_rotates(vec3 k, float log2_x)
     return k.x * max(1.0 - 0.11 * log(1.0 + 0.035 * x), 0.0);
 }
 
-/* Ratios of Q and V to I, for emission and for absorption; rho_Q and rho_V, as log2 and sign. */
+/* light, depth: ratios of Q and V to I, for emission and for absorption. turns, signs: log2 of the absolute values of
+ * rho_Q and rho_V, and their signs. */
 struct kd_polarises { vec2 light, depth, turns, signs; };
 
 vec2 kd_stokes_held(vec2 part)
@@ -145,7 +147,8 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
         vec2((index + 1.0) / (index + 7.0 / 3.0), 0.684 * pow(index, 0.49) * 1.73205081 * cotangent * root));
     p.depth = kd_stokes_held(vec2(pow(0.034 * index - 0.0344, 0.086), way * pow(0.71 * index + 0.0352, 0.394) *
                                                                           pow(max(3.1 * open_, 1e-30), 0.512) * root));
-    /* (1 - y^n)/n, n = p/2 - 1, y = gamma_min^2 nu_c sin/nu: 0 below the frequency of the slowest electrons. */
+    /* l: (1 - y^n)/n with n = p/2 - 1 and y = gamma_min^2 nu_c sin/nu. It is 0 below the frequency of the slowest
+     * electrons. */
     float n = 0.5 * index - 1.0, l = 0.69314718 * min(emission.stokes.gamma2 - x, 0.0), nl = n * l,
           less = abs(nl) < 0.01 ? -l * (1.0 + 0.5 * nl) : (1.0 - exp(min(nl, 80.0))) / n;
     p.turns = vec2(emission.stokes.convert + 2.0 * turn - 3.0 * frequency + 2.0 * slant + log2(max(less, 1e-37)),
@@ -154,8 +157,8 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
     return p;
 }
 
-/* Marszewski et al. 2021 for kappa 3.5 + node/2, w = exp2(log2_w) and X: rho_Q over n e^2 nu_c^2 sin^2(theta)/(m_e c
- * nu^3), and rho_V over 2 n e^2 nu_c cos(theta)/(m_e c nu^2) times K0/K2. */
+/* Fits of Marszewski et al. 2021 for kappa = 3.5 + node/2, at w = exp2(log2_w) and X. First result: rho_Q divided by n
+ * e^2 nu_c^2 sin^2(theta)/(m_e c nu^3). Second: rho_V divided by 2 n e^2 nu_c cos(theta)/(m_e c nu^2) K0/K2. */
 vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
 {
     const vec3 widths[4] = vec3[](vec3(17.0, 3.0, 7.0), vec3(46.0 / 3.0, 5.0 / 3.0, 17.0 / 3.0), vec3(14.0, 1.625, 4.5),
@@ -169,8 +172,8 @@ vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
     vec3 width = widths[node];
     vec4 shape = shapes[node], ratio = ratios[node];
     float w = exp2(clamp(log2_w, -40.0, 40.0)), root = sqrt(w), x = exp2(clamp(log2_x, -40.0, 40.0));
-    float bend = exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* skipped, because beyond 1e3
-                                                                                         * the exponential is 0 */
+    /* beyond 1e3 the exponential is 0 */
+    float bend = exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s;
     float q =
         (1.0 - exp(-shape.x * pow(x, 0.84)) - bend) * (width.x * w - width.y * root + width.z * root * exp(-5.0 * w));
     float v = max(1.0 - 0.17 * log(1.0 + slows[node] * inversesqrt(x)), 0.0) * (w + ratio.x + ratio.y / w) /
@@ -183,7 +186,7 @@ kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
     float turn = e.field + KD_LOG2_GYRO, slant = 0.5 * log2(max(e.sine2, 1e-30)), way = sign(e.cosine), log2_w = 0.0;
     kd_kappa_laws of = kd_kappa_of(e, frequency);
     log2_w = of.z - log2(emission.plasma.kappa);
-    /* log2 of sin^-n - 1 for the four powers of V's fits. */
+    /* log2 of sin^-n(theta) - 1, for the four powers n in the fits of V. */
     vec4 open_ = log2(max(exp2(min(-slant * vec4(2.4, 2.5, 2.28, 2.05), vec4(100.0))) - 1.0, vec4(1e-30)));
     float light = kd_log2_joined(of.light_low, of.light_high, emission.plasma.kappa_light_sharp),
           depth = kd_log2_joined(of.depth_low, of.depth_high, emission.plasma.kappa_depth_sharp);
@@ -212,8 +215,8 @@ kd_polarises kd_stokes_by_kappa(kd_electrons e, float frequency)
     return p;
 }
 
-/* Walker & Penrose's constant of k ^ f, up to a positive factor; f: contravariant components t, r, theta, phi in
- * Boyer-Lindquist coordinates. */
+/* Walker & Penrose's constant of k ^ f for the direction f, up to a positive factor. f: contravariant components t, r,
+ * theta and phi in Boyer-Lindquist coordinates. */
 vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
 {
     float a = cam.spin, aw2 = a * p.w * p.w, s2 = max(1.0 - p.u * p.u, 1e-12), s = sqrt(s2), size = sqrt(g.sigma),
@@ -226,8 +229,7 @@ vec2 kd_stokes_kappa(kd_midst p, kd_metric g, vec4 f)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* exp(2 i EVPA), with the EVPA as seen on the sky, for light whose electric field is perpendicular to the magnetic
- * field. */
+/* exp(2 i EVPA) on the sky, for light whose electric field is perpendicular to the magnetic field. */
 vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
 {
     vec4 u =
@@ -239,8 +241,8 @@ vec2 kd_stokes_direction(kd_plasma m, kd_midst p)
     return vec2(z.x * z.x - z.y * z.y, -2.0 * z.x * z.y) / dot(z, z);
 }
 
-/* Sets the medium at the current place. light, depth: for I. depth_log2: log2 of the depth; where it exceeds 40, all
- * coefficients are reduced by the same factor. */
+/* Sets the medium at the current place. light, depth: emission and absorption of I. depth_log2: log2 of the depth;
+ * where this exceeds 40, all coefficients are reduced by the same factor. */
 void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth_log2)
 {
     kd_polarises of;
@@ -260,15 +262,15 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
                                depth * vec3(whole * of.depth.x * c, of.depth.y), vec3(whole * turns.x * c, turns.y));
 }
 
-/* A stretch. front: the transfer by all matter in front of it. light: its light that arrives. one, two, three: the
- * matter at its three nodes. */
+/* A stretch of the ray that is not accepted yet. front: transfer of all matter in front of the stretch. light: light of
+ * the stretch as it arrives. one, two, three: matter at the three nodes of the stretch. */
 struct kd_stokes_trial {
     kd_jones front;
     vec4 light;
     kd_stokes one, two, three;
 };
 
-/* K S: what the medium takes from S per length. */
+/* K S, the loss of the Stokes vector S per length in the medium. */
 vec4 kd_stokes_less(kd_stokes m, vec4 s)
 {
     return m.depth * s + vec4(dot(m.takes, s.yzw), s.x * m.takes - cross(m.turns, s.yzw));
@@ -293,8 +295,9 @@ void kd_stokes_along(inout kd_stokes_trial trial, float way)
     trial.three = kd_stokes(i * m.light, m.depth, m.takes, m.turns);
 }
 
-/* First-order remainder of the light of a stretch. Light of each of its three nodes is attenuated and rotated by half
- * of the node's own matter and by all matter before it. The remainder has Gauss's coefficients, as in kd_march_rest. */
+/* First-order remainder of the light of a stretch. The light of each node is attenuated and rotated by half of that
+ * node's own matter and by all matter before it. The remainder is the difference to Gauss's method, as in
+ * kd_march_rest. */
 vec4 kd_stokes_rest(kd_stokes_trial t)
 {
     vec4 rest = 0.0809475 * (kd_stokes_less(t.two, t.one.light) - kd_stokes_less(t.one, t.two.light) +
@@ -304,8 +307,8 @@ vec4 kd_stokes_rest(kd_stokes_trial t)
     return x < 8.0 && turn < 2.0 ? exp(-0.5 * x) * rest : vec4(0.0);
 }
 
-/* Second-order remainder of the product of the three nodes' factors: sum [c_i, c_j] with the coefficients of
- * kd_stokes_rest (W. Magnus 1954). The result is a factor that follows that product. */
+/* Second-order remainder of the product of the three nodes' factors: the sum of commutators [c_i, c_j] with the
+ * coefficients of kd_stokes_rest (W. Magnus 1954). The result is a further factor, which multiplies that product. */
 kd_jones kd_stokes_order(kd_stokes_trial t)
 {
     const float near = 0.0809475, far = 0.0352425;
@@ -315,12 +318,13 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
     vec3 im =
         near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
     float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
-    /* The series is in powers of the rotation angle of the stretch, and the factor does not preserve lengths. If
-     * many stretches had angles of many radians, their factors would amplify light, so the factor is 1 there. */
+    /* The remainder is a series in powers of the stretch's rotation angle, and it does not preserve lengths. Over many
+     * stretches with angles of many radians, such factors would amplify light. For large angles the factor is therefore
+     * 1. */
     return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 
-/* Accepts the stretch and returns its light as it arrives. */
+/* Accepts the stretch: adds its matter to `front`. Returns its light as it arrives. */
 vec4 kd_stokes_take(kd_stokes_trial t)
 {
     vec4 light = t.light + kd_jones_on(kd_stokes_front, kd_stokes_rest(t));

@@ -1,37 +1,37 @@
-/* The smooth disk's gas with a height: Gaussian about the plane at each distance R = r sin(theta) from the axis, z = r
- * cos(theta),
+/* The smooth disk's gas with a height. At each distance R = r sin(theta) from the axis, its density is Gaussian in the
+ * height z = r cos(theta) above the plane,
  *
  *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,
  *
- * between the spheres of the disk's edges, where R is beyond the ISCO. The gas ends smoothly at a height of 4.5 H,
- * because samples would either hit or miss a sharp edge. The gas emits as the thin disk does at R, with its temperature
- * and flux, and rotates with the Omega of the circular orbit there at any height (by the metric's u^t: -1/u^t^2 = g_tt
- * + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972).
+ * It fills the range between the spheres of the disk's edges, where R is beyond the ISCO. The gas ends smoothly at a
+ * height of 4.5 H, because samples would either hit or miss a sharp edge. The gas emits as the thin disk does at R,
+ * with the same temperature and flux. At any height it rotates with the Omega of the circular orbit at R; u^t follows
+ * from the metric: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi (Bardeen, Press & Teukolsky 1972).
  *
  * From top to bottom the gas has the optical depth of the thin disk. Light that crosses at an angle theta to the
  * normal, in the frame of the gas, is attenuated by the same factor as in the thin disk, including opacity and fade.
  * For a small height the picture is therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate
  * in its noise. */
 #ifndef KD_BLOCK_thick
-#define KD_THICK_REACH 4.5 /* times H */
+#define KD_THICK_REACH 4.5 /* height at which the gas ends, in units of H */
 /* density in the middle of the column for height 1, such that the integral over the column is 1 */
 #define KD_THICK_AMID 0.399624938
 /* reciprocal standard deviation of gradient noise with the gradients of a cube */
 #define KD_THICK_NOISE 5.237147522273636
-#define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first do not shorten stretches */
+#define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first octave do not shorten stretches */
 #define KD_THICK_HASTE \
     4.0 /* slow light: largest time, in M per M along the ray, that shortens a grain. Beyond that, next to the \
          * horizon, the gas is hardly visible */
-/* Streaks fade out where the gas, along its normal, has less than this fraction of the optical depth at the ray's
- * innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of depth. The
- * first octave thus ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take
- * thousands of stretches in the dark. */
+/* Streaks fade out where the gas is thin: where its optical depth along the normal is less than this fraction of that
+ * at the ray's innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of
+ * depth. The first octave thus ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M
+ * would take thousands of stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
     3.0 /* cells in height for each cell in the plane; streaks are longer than high by this factor */
 /* clang-format off */
 #define KD_BLOCK_thick(F, U, A) \
-    F(height) F(flare)     /* H/R at 10 M; power of R/10 at which it grows */ \
+    F(height) F(flare)     /* H/R at 10 M; exponent of its growth with R/10 */ \
     F(inner) F(outer)      /* M */
 /* clang-format on */
 #define KD_TABLES_thick(T)
@@ -44,7 +44,7 @@
 #ifdef KD_MARCH
 const uint KD_THICK_TAKEN = (TRAITS_thick & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
 
-/* The circular orbit at a distance from the axis, at which matter of any height rotates: u^t and Omega. */
+/* u^t and Omega of the circular orbit at a distance from the axis; matter at any height rotates with this Omega. */
 struct kd_thick_orbit { float ut, omega; };
 
 kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
@@ -55,14 +55,14 @@ kd_thick_orbit kd_thick_orbit_of(kd_midst p, float r, float axis)
     return kd_thick_orbit(inversesqrt(max(rest, 1e-6)), omega);
 }
 
-/* t': how much earlier light was at a place, per unit of Mino time backwards along the ray. */
+/* t', the derivative of the light's time by Mino time along the ray: how much earlier the light was at a place. */
 float kd_thick_time(kd_midst p, float s2)
 {
     float a = cam.spin, w2 = p.w * p.w, all = p.energy + a * (a * p.energy - p.momentum) * w2;
     return (1.0 + a * a * w2) * all / (w2 * kd_horizons(p.w, cam.root)) + a * (p.momentum - a * p.energy * s2);
 }
 
-/* Gradient at a point of a lattice, times 2^31. */
+/* Gradient at a point of the lattice, times 2^31. */
 vec3 kd_thick_gradient(uint point)
 {
     uint h = (point ^ (point >> 15)) * 0x2c1b3c6du;
@@ -84,8 +84,9 @@ vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
     return mix(low, high, t.y);
 }
 
-/* Gradient noise of variance 1 (Perlin 2002) in three dimensions, in a lattice shifted by at.xy of a cell and at.zw
- * cells. The second result is the noise of the rotated gradients, uncorrelated with the first, of variance 2/3. */
+/* Gradient noise of variance 1 (Perlin 2002) in three dimensions. The lattice is shifted by the fraction at.xy of a
+ * cell and by at.zw whole cells. The second result is the noise of the rotated gradients, which is uncorrelated with
+ * the first and has the variance 2/3. */
 vec2 kd_thick_noise(vec3 p, vec4 at)
 {
     p.xy += at.xy;
@@ -95,12 +96,12 @@ vec2 kd_thick_noise(vec3 p, vec4 at)
          z0 = uint(int(corner.z)) * 0xcb1ab31fu;
     vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy),
          high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
-    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0); /* with this factor the mean of n^2 over the cube's
-                                                                   * gradients and over places in a cell is 1 */
+    /* this factor makes the mean of n^2 equal to 1, averaged over the gradients and over all places in a cell */
+    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0);
 }
 
-/* As kd_gas_excess, with a height. finest: cells of the finest octave that matters for the grain, per cell of the first
- * octave. */
+/* The result of kd_gas_excess for gas with a height. finest: number of cells, per cell of the first octave, of the
+ * finest octave that matters for the grain. */
 struct kd_thick_stir { float excess, finest; };
 
 kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
@@ -125,7 +126,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     }
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
-    /* The sum of an ellipse's squared semi-axes, in cells (dr, dphi + shear dr, layers dz), is the trace of its matrix.
+    /* The trace of an ellipse's matrix, in cells (dr, dphi + shear dr, layers dz), is the sum of its squared semi-axes.
      * The sum of the matrix's minors replaces the product of the squared semi-axes. */
     vec3 plane = p.spread.plane, rise = KD_THICK_LAYERS * p.spread.rise;
     float rr = plane.x, rf = plane.y + shear * rr, ff = plane.z + shear * (2.0 * plane.y + shear * rr), rz = rise.x,
@@ -137,8 +138,9 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* visibility of the octave, by the amount of gas; octaves fade out from three times the
-                           * limit on */
+                     /* visibility of the octave, by the amount of gas; octaves begin to fade at three times the
+                      * limit */
+                     1.0;
         if (!(seen > 0.0))
             break;
         seen = min(0.5 * seen, 1.0);
@@ -156,8 +158,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     return kd_thick_stir(sum, finest);
 }
 
-/* Weight of gas of a given flux in a ray's light, relative to the plane at the ray's innermost crossing. The radius of
- * that crossing is limited from below to about the radius of the largest flux. */
+/* Weight of gas of a given flux in the ray's light, relative to gas in the plane at the ray's innermost crossing. The
+ * radius of that crossing is taken to be at least about the radius of the largest flux. */
 float kd_thick_counts(float nearest, float flux)
 {
     float w = min(nearest, 0.5 / emission.frame.r_isco), t = kd_disk_heat(w), near = t * t * t * t * w * w * w;
@@ -172,7 +174,7 @@ kd_medium kd_thick_along(kd_midst p)
     float height = axis * emission.thick.height *
                    (emission.thick.flare == 0.0 ? 1.0 : pow(0.1 * axis, emission.thick.flare)),
           x = z / height;
-    /* Rates at which the ray goes up, outwards and round, per length. */
+    /* Change of height, distance from the axis and azimuth along the ray, per length. */
     float per = 1.0 / p.speed, dr = -p.dw * r * r * per, dz = dr * p.u + r * p.du * per,
           out_ = dr * s - r * p.u * p.du / s * per, round_ = -p.momentum / s * r * per;
     float off = max(abs(x) - KD_THICK_REACH, 0.0) * height;
@@ -196,7 +198,7 @@ kd_medium kd_thick_along(kd_midst p)
                              : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
-    /* The thin disk's opacity for light at this angle, as an optical depth along the normal. The transmission is
+    /* Optical depth along the normal that gives the thin disk's opacity for light at this angle. The transmission is
      * computed without a difference of nearly equal numbers. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), on = f * f * (3.0 - 2.0 * f),
           off_ = (1.0 - f) * (1.0 - f) * (1.0 + 2.0 * f);

@@ -4,15 +4,15 @@
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
- * Without the redshift the frequencies of the matter are taken as those of the observer. Lengths are then those of the
- * affine parameter, which has a closed form. */
+ * If the redshift is switched off, the frequencies of the matter are taken as those of the observer. Lengths are then
+ * those of the affine parameter, which has a closed form. */
 #ifndef KD_BLOCK_volume
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(emissivity)          /* emission per unit of length, 1/M; the unit is the disk's largest surface brightness */ \
     F(opacity)             /* optical depth per unit of length, 1/M */ \
-    F(temperature)         /* K: temperature of the black body that has the colour of the light */
+    F(temperature)         /* temperature of the black body that has the colour of the light, K */
 /* clang-format on */
 #define KD_TABLES_volume(T)
 #define KD_TRAITS_volume(T) T(REDSHIFT)
@@ -21,16 +21,17 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* -k.U for an observer of zero angular momentum. */
+/* The photon's energy -k.U, as an observer of zero angular momentum at the place measures it. */
 float kd_volume_energy(kd_midst p)
 {
     kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);
     return (p.energy - at.omega * p.momentum) * sqrt(at.area / (at.sigma * at.delta));
 }
 
-/* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is
- * no longer than the distance to the edge, or than this fraction of r. The fraction is the uncertainty of the shell's
- * length at `balanced`, and is smaller for finer stretches. */
+/* Least grain next to an edge of the shell, as a fraction of r. The march finds only the outer edges of all volumes
+ * together, and the shell's edges may be inside other volumes. There a stretch is no longer than the distance to the
+ * shell's edge, or than this fraction of r if that is longer. The fraction is the uncertainty of the shell's length at
+ * accuracy `balanced`, and is smaller for finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

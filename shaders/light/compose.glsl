@@ -1,22 +1,23 @@
 /* Composes light along one ray, front to back, from the emitters of the scene. The code iterates over the list of
- * emitters and contains no emitter's name. Kernels supply samples: crossings from a lens map (transfer.comp), or points
- * along the path. */
+ * emitters and contains no emitter's name. Kernels supply the samples, which are crossings from a lens map
+ * (transfer.comp) or points along the path. */
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time. energy, momentum, q:
- * E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the ray's footprint at
- * the sample, 0 if no emitter needs them (shared/lens.h). cosine: cosine of the angle between light and normal, in the
- * frame of the gas where the light left it; 0 if no emitter needs it (emit/cosine.glsl). */
+/* A sample of a ray. ago: time, M, by which the sample's light left earlier than light that shows the scene's time.
+ * energy, momentum, q: E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the
+ * ray's footprint at the sample, 0 if no emitter needs them (shared/lens.h). cosine: cosine of the angle between light
+ * and normal, in the frame of the gas where the light left it; 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
     float cosine;
 };
-/* The end of a ray that escapes. footprint: radians; energy: in units of the energy that the observer measures. */
+/* The end of a ray that escapes. footprint: size of the ray on the sky, radians. energy: E in units of the energy that
+ * the observer measures. */
 struct kd_end { float u, phi, footprint, energy; };
-/* Contribution of one emitter at a sample. It has the emitter's light, with its opacity applied; the opacity; and the
- * luminance that is also kept separately. */
+/* Contribution of one emitter at a sample. light: the emitter's light, with its opacity applied. alpha: the opacity.
+ * apart: the luminance that is also kept separately. */
 struct kd_glow {
     vec3 light;
     float alpha, apart;
@@ -25,14 +26,14 @@ struct kd_glow {
  * M_rf, M_ff, as in KD_LENS_SHAPE (shared/lens.h). rise: M_rz, M_fz, M_zz, where z is along the normal. The unit is
  * M^2. */
 struct kd_spread { vec3 plane, rise; };
-/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction of
- * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. These
- * constants belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in
- * (r, r n), M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this
- * unit of length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are
- * 0 without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at the
- * extremes of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the
- * ray's innermost crossing of the plane; 0: unknown. */
+/* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: derivatives of w and u by Mino time. Mino time
+ * grows in the direction of tracing, which is opposite to the light's. energy, momentum, q: E, L and Q in units of the
+ * energy that the observer measures. These constants belong to the arriving photon, which has p_r = dw/kd_delta(w) and
+ * p_theta = du/sin(theta). speed: length of the path in M per unit of Mino time, as if space were flat; grains are
+ * lengths of this kind. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and
+ * spread are 0 without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at
+ * the extremes of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the
+ * ray's innermost crossing of the plane, or 0 if that is unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -43,15 +44,15 @@ struct kd_midst {
 /* The medium at a point of a ray. light: emission; depth: optical depth. Light and depth are per unit of the affine
  * parameter lambda, which is normalised by the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and
  * matter of velocity U measures the path length -k.U d lambda. With emissivity j and opacity alpha per length in the
- * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: length in M
- * along the ray over which the medium changes by about its own size. Where there is no matter, it is the distance to
- * the matter. */
+ * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3. 1/(-k.U) is g. grain: length in M along the
+ * ray over which the medium changes by about its own size. Where there is no matter, it is the distance to the matter.
+ */
 struct kd_medium {
     vec3 light;
     float depth, grain;
 };
 /* A surface that a ray meets. time: Mino time from the observer. body: the body's number, or KD_NOBODY. crossed: number
- * of crossings of the plane before the surface. w, u, phi and dw, du: as in kd_midst. energy, momentum: E and L.
+ * of crossings of the plane before the surface. w, u, phi, dw and du: as in kd_midst. energy, momentum: E and L.
  * cosine: cosine of the emission angle in the frame of the surface. */
 struct kd_met {
     float time;
@@ -59,7 +60,8 @@ struct kd_met {
     float w, u, phi, dw, du, energy, momentum, cosine;
 };
 #define KD_NOBODY 0xffffffffu
-/* State of a ray: the light so far, and the transmission of everything in front. */
+/* State of a ray. light: the light so far. apart: the part of the luminance that is kept separately. through:
+ * transmission of everything passed so far. */
 struct kd_beam {
     vec3 light;
     float apart, through;
@@ -76,13 +78,14 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_S
 const int KD_VOLUMES =
     0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_, KD_NO_EMITTER_);
 
-#define KD_BEAM_MOST 1e30 /* limit for light of one contribution: larger values would overflow when summed */
+/* limit of the light of one contribution, because larger values would overflow when summed */
+#define KD_BEAM_MOST 1e30
 
 #define KD_EMIT_CODE
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
-/* True if anything is visible at crossings; true if some luminance is kept separately. */
+/* First: true if any emitter is visible at crossings. Second: true if some luminance is kept separately. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS =
     0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
@@ -123,7 +126,8 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
-/* The sum of all emitters at a point. The emitters share the point, so none of them hides another's light. */
+/* The medium of all emitters together at a point. The emitters share the point, so none of them hides another's light.
+ */
 kd_medium kd_medium_at(kd_midst p)
 {
     kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);
@@ -145,7 +149,8 @@ kd_medium kd_medium_at(kd_midst p)
     return sum;
 }
 
-/* Advances through a uniform medium, by a length `way` of the affine parameter: exact for any depth. */
+/* Advances a ray through a uniform medium by a length `way` of the affine parameter. The result is exact for any depth.
+ */
 void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {
     float x = medium.depth * way, passes = exp(-x);
@@ -158,7 +163,7 @@ void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 #endif
 
 #ifdef KD_MARCH
-/* A surface transmits nothing. */
+/* Adds the light of a surface. A surface transmits nothing. */
 void kd_beam_met(inout kd_beam beam, kd_met met)
 {
 #define KD_MET_(number, name) \
@@ -184,7 +189,7 @@ void kd_beam_end(inout kd_beam beam, kd_end end)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_END_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
-/* Adds points of light. They were spread over pixels independently of the pixels' own rays. */
+/* Adds the points of light of a pixel. They were spread over pixels independently of the pixels' own rays. */
 void kd_beam_points(inout kd_beam beam, uint pixel)
 {
 #define KD_POINTS_(number, name) \

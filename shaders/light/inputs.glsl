@@ -1,6 +1,7 @@
 /* Inputs of the kernels that make light from a lens map: the map, numbers and tables of the emitters, the camera, and
- * the emitters' buffers. Their bindings are 0, 1, 2, 4, and from KD_OWN_BINDING on; 3 is the kernels' output. Needs the
- * specialisation constants of KD_SPEC_TRANSFER. */
+ * the emitters' buffers. The map has binding 0, numbers 1, tables 2, and the camera 4. Buffers have the bindings from
+ * KD_OWN_BINDING on. Binding 3 is the kernel's output. This file needs the specialisation constants of
+ * KD_SPEC_TRANSFER. */
 #ifndef KD_INPUTS_GLSL
 #define KD_INPUTS_GLSL
 
@@ -25,13 +26,13 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* Numbers that are uniform over all invocations. They are read before the first branch, because after a branch lavapipe
- * reads them again for each lane and each use. */
+/* The numbers of all emitters, uniform over all invocations. They are copied before the first branch, because lavapipe
+ * reads a uniform block again for each lane and each use after a branch. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' buffers are texels if the map is. lavapipe reads storage buffers lane by lane, at ten times the
- * cost. */
+/* The emitters' buffers are texel buffers if the lens map is one. lavapipe reads storage buffers lane by lane, at ten
+ * times the cost. */
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };
 #define KD_OWN_quads(number, member) \
@@ -70,7 +71,8 @@ float quantity(uint which, uint at)
     return (QUANTITIES & which) != 0u ? KD_MAP_AT(at + kd_plane(which) * slice.stride) : 0.0;
 }
 
-/* Q from w'^2 = R(w) of kerr_ray.glsl, for a ray that is not on the camera's grid. */
+/* Carter's constant Q from the slope of w, by w'^2 = R(w) of kerr_ray.glsl, for a ray that is not on the camera's grid.
+ */
 float kd_carter_of_slope(float energy, float momentum, float w, float slope)
 {
     float w2 = w * w, ae = cam.spin * energy, j = momentum - ae;

@@ -1,6 +1,6 @@
-/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map. An invocation writes a pixel's number, or NaN
- * if the pixel has none. LAYER: which layer. ORDER: number of the crossing. KD_MARCH: for scenes with volumes or
- * bodies; transfer.comp has stored their light, followed by Stokes Q, U and V. */
+/* Kernel: makes one layer of a frame (shared/layers.h) from the lens map. An invocation writes the number of one pixel,
+ * or NaN if the pixel has none. LAYER: number of the layer. ORDER: number of the crossing. With KD_MARCH the kernel is
+ * for scenes with volumes or bodies; transfer.comp has then stored the light, followed by Stokes Q, U and V. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -11,7 +11,7 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #include "light/numbers.glsl"
 layout(set = 0, binding = 3) writeonly buffer Layer { uint layer[]; };
 
-/* NaN, recognised and written by its bits, because a device need not preserve NaN in arithmetic. */
+/* The bits of NaN. NaN is written and recognised by its bits, because a device need not preserve NaN in arithmetic. */
 #define KD_NOTHING_BITS 0x7fc00000u
 #define KD_INFINITE_BITS 0x7f800000u
 #define KD_NOTHING uintBitsToFloat(KD_NOTHING_BITS)
@@ -46,7 +46,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {
     uint plane = at + n * slice.stride;
     bool listed =
-        (QUANTITIES & KD_LENS_ALPHA) != 0u; /* rays are round the critical curve, and not on the camera's grid */
+        /* true if the rays are round the critical curve instead of on the camera's grid */
+        (QUANTITIES & KD_LENS_ALPHA) != 0u;
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
           slope = quantity(KD_LENS_SLOPE, plane);
@@ -58,8 +59,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* True if a ray of the pixel was given up, so that the pixel has no number. It is a flag, because a device need not
- * preserve NaN in sums. */
+/* True if a ray of the pixel was given up, so that the pixel has no number. This is a flag instead of a NaN, because a
+ * device need not preserve NaN in sums. */
 bool untold = false;
 
 #ifdef KD_MARCH
@@ -88,8 +89,8 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for all light of the ray, or for the
- * light of one order. */
+/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as the light arrives. They are for all light of the ray, or for
+ * the light of one order. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);
@@ -118,7 +119,8 @@ vec4 light(uvec2 place, uint at, uint pixel)
 }
 #endif
 
-/* Angle of the electric field, from north to east, in (-pi/2, pi/2]; and degree of polarisation. */
+/* kd_layer_evpa: angle of the electric field, from north to east, in (-pi/2, pi/2]. The next function: degree of
+ * polarisation. */
 float kd_layer_evpa(vec4 light)
 {
     float by = kd_squarable(max(abs(light.y), abs(light.z)));
@@ -136,7 +138,7 @@ float value_of_light(vec4 light)
     return KD_NOTHING;
 }
 
-/* The layer's value at a crossing. The crossing must lie on the disk. */
+/* The layer's value at a crossing, which must lie on the disk. */
 float value_of(kd_sample s, float delay)
 {
 #define VALUE_(number, name, needs, value, met) \
@@ -229,7 +231,7 @@ void main()
 #endif
         value = value_of_light(sum);
     } else {
-        /* the pixel's ray in the grid: the middle one, or the one before the middle */
+        /* the one ray that stands for the pixel in the grid: the middle one, or the one before the middle */
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u;
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);

@@ -1,53 +1,56 @@
 /* The march: light along a ray through volumes, composed with the crossings of the lens map in their order
  * (docs/physics/volume.md).
  *
- * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step the ray is the
- * quintic that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the
- * step). A step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In
- * each part Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with
- * three Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow. A stretch that
- * turns out too long is repeated.
+ * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step the ray is
+ * Hermite's quintic, which fits y, y' and y'' at both ends. Its error is of sixth order in the step, like the
+ * integrator's. A step is split where w or u turns and where the plane is crossed, so that w and u are monotone in each
+ * part. In each part Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches
+ * with three Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow. A stretch
+ * that turns out too long is repeated.
  *
- * Needs inputs.glsl and two macros. KD_MARCH_MEET(beam, w, n, place, at) composes crossing n of the lens map.
+ * This file needs inputs.glsl and two macros. KD_MARCH_MEET(beam, w, n, place, at) composes crossing n of the lens map.
  * KD_MARCH_GIVEN_UP(beam) is for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
-/* Push constants, which differ between dispatches: the same kernel follows a sample of pixels more finely
- * (src/render/frame/march_error.c). */
+/* The push constants give these numbers, because they differ between dispatches: the same kernel follows a sample of
+ * pixels with finer steps (src/render/frame/march_error.c). */
 #define STEPS slice.steps /* number of steps per half period */
-#define FINE slice.fine   /* resolution: a stretch is at most 4/FINE grains long */
+#define FINE slice.fine   /* a stretch is at most 4/FINE grains long */
 
 #include "ray/radial_step.glsl"
 #include "ray/escape.glsl"
 
 #define KD_MARCH_SHORTEST (1.0 / 4096.0) /* shortest stretch, as a fraction of a step */
-/* the shortest stretch is also at most this fraction of the longest stretch by distance */
+/* least length of a stretch, as a fraction of the longest stretch that distance allows; applies if KD_MARCH_SHORTEST is
+ * longer */
 #define KD_MARCH_LEAST 0.05
-#define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
-#define KD_MARCH_DEPTH 1.0 /* longest stretch, in optical depth */
-#define KD_MARCH_TURN 1.0  /* longest stretch, in radians of Faraday rotation and conversion */
-/* Faraday rotation shortens a stretch to no less than this fraction of the length otherwise allowed. Light that rotates
+/* longest stretch, as a fraction of r; three nodes then integrate r^2 with an error of 4e-5 */
+#define KD_MARCH_WAY 0.5
+#define KD_MARCH_DEPTH 1.0 /* largest optical depth of a stretch */
+#define KD_MARCH_TURN 1.0  /* largest Faraday rotation and conversion in a stretch, radians */
+/* Faraday rotation shortens a stretch to this fraction, at least, of the length otherwise allowed. Light that rotates
  * further within a stretch is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
-#define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
-/* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
+#define KD_MARCH_TOO_LONG 1.5 /* a stretch is repeated if it is longer by this factor than its nodes allow */
+/* largest factor by which a grain is lengthened because the matter is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
-/* limit of loop passes, more than any ray needs. lavapipe may end a loop before its condition does, and unfinished work
- * must be detected */
+/* limit of loop passes, more than any ray needs. lavapipe may end a loop early; the count of passes shows that work was
+ * left unfinished */
 #define KD_MARCH_LOOPS 65536u
-/* least Delta w^4 of a turning ray. Below it the ray is as close to the horizon as 32 bits resolve. The ray's time
- * there has no valid digits, but stays finite */
+/* least Delta w^4 of a turning ray. Smaller values are closer to the horizon than 32 bits resolve. There the ray's time
+ * has no valid digits, but it stays finite */
 #define KD_MARCH_CLOSE 1e-8
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
 #define KD_MARCH_ENDS 100u
-#define KD_MARCH_DEEP 1e3            /* a larger optical depth makes no difference */
+#define KD_MARCH_DEEP 1e3            /* a larger optical depth of a stretch makes no visible difference */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
-/* A driver's limit on loops may stop a ray. Such a ray is traced again in pieces, one dispatch each (KD_PIECES). left:
- * loop passes that this piece may still take. waits: no passes were left before the ray's end. The other members say
- * where to continue: number of completed steps, place within the next step, and length of the next stretch. */
+/* State of a ray that is traced in pieces, one dispatch each (KD_PIECES), because a driver's limit on loops stopped it.
+ * left: loop passes that this piece may still take. waits: true if no passes were left before the ray's end. The other
+ * members say where to continue: number of completed steps, place within the next step, and length of the next stretch.
+ */
 #ifdef KD_PIECES
 struct kd_march_piece {
     uint left, steps;
@@ -63,10 +66,10 @@ struct kd_march_piece {
 #define KD_MARCH_WAITS false
 #endif
 
-/* A polynomial in the time within a step, which goes from 0 to 1. */
+/* A polynomial in the time within a step, which runs from 0 to 1. */
 struct kd_quintic { float c0, c1, c2, c3, c4, c5; };
 
-/* The quintic with given values, slopes and second derivatives at both ends. */
+/* The quintic from values y, slopes d and second derivatives a at both ends. */
 kd_quintic kd_quintic_of(float y0, float d0, float a0, float y1, float d1, float a1)
 {
     float rest = y1 - y0 - d0 - 0.5 * a0, slope = d1 - d0 - a0, bend = a1 - a0;
@@ -87,7 +90,7 @@ kd_quintic kd_quintic_derived(kd_quintic q)
     return kd_quintic(q.c1, 2.0 * q.c2, 3.0 * q.c3, 4.0 * q.c4, 5.0 * q.c5, 0.0);
 }
 
-/* Time at which the quintic takes a value that it crosses between two times: Newton's method, bracketed. */
+/* Time between `low` and `high` at which the quintic takes a value. Newton's method, kept within these bounds. */
 float kd_quintic_root(kd_quintic q, float value, float low, float high)
 {
     bool falls = kd_quintic_at(q, low) >= value;
@@ -104,7 +107,7 @@ float kd_quintic_root(kd_quintic q, float value, float low, float high)
     return t;
 }
 
-/* Narrows (from, to), where q is monotone, to the range in which sign_ (q - value) is not negative. */
+/* Narrows the range (from, to), in which q is monotone, to the part in which sign_ (q - value) is not negative. */
 void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, inout float to)
 {
     float a = sign_ * (kd_quintic_at(q, from) - value), b = sign_ * (kd_quintic_at(q, to) - value);
@@ -118,24 +121,25 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
-/* True if the march needs the times at which light left. */
+/* True if the march needs the times at which light left its sources. */
 #ifdef KD_PROBE
 const bool KD_MARCH_DELAYS = true;
 #else
 const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
-/* Frame dragging up to the start of a step. chi: the azimuth of the ray in the coordinates of ray/radial_step.glsl.
- * way: which of these coordinates. fallen: the terms left out earlier. ago: how much earlier light left the start of
- * the step than light that shows the scene's time. */
+/* Frame dragging up to the start of a step. chi: azimuth of the ray by dragging, in ingoing, outgoing or
+ * Boyer-Lindquist coordinates. way: which of these coordinates, as in ray/radial_step.glsl. fallen: terms that earlier
+ * coordinates left out. ago: how much earlier light left the start of the step than light that shows the scene's time.
+ */
 struct kd_march_drag {
     float chi, way, fallen;
     bool returns;
     float ago;
 };
 
-/* A step of the ray. Within the step chi is a cubic. The delay is the quintic ago plus along * kd_march_edge. along: 1
- * inwards, -1 outwards, 0 if the ray turns. */
+/* A step of the ray. Within the step chi is a cubic in time. The delay is the quintic `ago` plus along * kd_march_edge.
+ * along: 1 if the ray moves inwards, -1 if outwards, 0 if it turns. */
 struct kd_stride {
     kd_quintic w, u, x, y;
     float h, c0, c1, c2, c3, way;
@@ -143,12 +147,13 @@ struct kd_stride {
     float along;
 };
 
-/* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1 -
- * 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part of t' is (1 + a^2 w^2) (w'/(w^2 D)
- * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of this part
- * is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D and W with the charge q. This term contains everything that
- * grows without bound towards infinity and at the horizon. After subtraction of r_o + 2 ln r_o it vanishes for an
- * observer at infinity. The rest of t' is smooth. In the step in which the ray turns, t' itself is smooth. */
+/* Function of w in the closed-form part of the delay. Along the ray, traced backwards, Boyer-Lindquist time grows by t'
+ * = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1 - 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2
+ * - D K w^2 the first part of t' is (1 + a^2 w^2) (w'/(w^2 D) + K/(W + w')) where the ray goes inwards, and the same
+ * with -w' where it goes outwards. The first term of this part is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D
+ * and W with the charge q. This term contains everything that grows without bound towards infinity and at the horizon.
+ * After subtraction of r_o + 2 ln r_o it vanishes for an observer at infinity. The rest of t' is smooth. In the step in
+ * which the ray turns, t' itself is smooth. */
 float kd_march_edge(float w) { return w > 0.0 ? kd_late(w) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0; }
 
 float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
@@ -163,8 +168,8 @@ float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
     return s.h * (out_ + a * (m.momentum - a * ray.e * (1.0 - u * u)));
 }
 
-/* Integral of the polynomial through five nodes of the step (Newton's forward differences). At the end of the step it
- * is Boole's rule. */
+/* Integral over time of the polynomial through five nodes of the step (Newton's forward differences). At the end of the
+ * step it equals Boole's rule. */
 kd_quintic kd_march_later_along(kd_geodesic m, kd_ray ray, kd_stride s, float begin)
 {
     float f0 = kd_march_later(m, ray, s, 0.0), f1 = kd_march_later(m, ray, s, 0.25),
@@ -200,7 +205,7 @@ kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h,
     if (KD_MARCH_TURNS) {
         s.x = kd_quintic_of(p.y.x, h * p.v.x, a.x, q.y.x, h * q.v.x, b.x);
         s.y = kd_quintic_of(p.y.y, h * p.v.y, a.y, q.y.y, h * q.v.y, b.y);
-        /* the coordinates change as in comp/lens_map.comp */
+        /* changes the coordinates as comp/lens_map.comp does */
         if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) {
             drag.way = 1.0;
             drag.fallen -= 2.0 * kd_drag_fall(p.y.w, cam.spin, cam.root);
@@ -251,10 +256,10 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
            dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. To put the ellipse across the ray,
- * the footprint's axis along the ray is multiplied by the cosine of the angle to the normal. The axis then has
- * components in the plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the ray is
- * traced outwards, -1 if inwards. The result is zero for a ray without that crossing. */
+/* The ellipse, perpendicular to a ray, that the ray stands for at its crossing n of the plane. To project the footprint
+ * perpendicular to the ray, its axis along the ray is multiplied by the cosine of the angle to the normal. The axis
+ * then has components in the plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the
+ * ray is traced outwards, -1 if inwards. The result is zero for a ray without that crossing. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
 {
     uint k = at + min(n, ORDERS - 1u) * slice.stride;
@@ -264,8 +269,8 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     float both = sqrt(i * (1.0 - i)), apart = i - 0.5,
           all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
-    /* Direction of the ray as if space were flat, divided by r: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along
-     * the normal. */
+    /* Direction of the ray as if space were flat, divided by r. Its components are r'^2 = R(w)/w^4 outwards, L about
+     * the axis, and sqrt(Q) along the normal. */
     float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0),
           round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
     float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2),
@@ -277,7 +282,7 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     return kd_spread(known * kd_march_shorter(across, d, less), known * rise * vec3(md - less * dd * d, rise * dd));
 }
 
-/* Largest 1/r at which this ray crosses the plane; 0: no crossing is known. */
+/* Largest 1/r at which the current ray crosses the plane; 0 if no crossing is known. */
 float kd_march_nearest = 0.0;
 
 float kd_march_nearest_of(uint at)
@@ -305,10 +310,10 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
                     KD_MARCH_DELAYS ? kd_march_ago(s, t) : 0.0, kd_march_nearest);
 }
 
-/* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
- * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j. This function
- * returns the difference between the two attenuations, to first order in depth. The difference is 0 where light is
- * proportional to depth, because the sum over the three nodes is then exact. */
+/* The march attenuates light of a node by half of that node's own depth and by all depth before it. In Gauss's method
+ * of three stages (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij and b_j and depths x_j, the attenuation
+ * is sum_j a_ij/b_j x_j. This function returns the resulting difference of light, to first order in depth. The
+ * difference is 0 where light is proportional to depth, because the sum over the three nodes is then exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -335,27 +340,28 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
     sum = t;
 }
 
-/* Integrates a part of a step inside the volumes. Its contribution is summed separately, and its transmission is the
+/* Integrates a part of a step inside the volumes. The part's contribution is summed separately. Its transmission is the
  * exponential of its depth. */
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from,
                    float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    /* length of the next stretch; 0: unknown. A stretch of length 0 then determines the length */
+    /* length of the next stretch as a fraction of the step; if 0, it is unknown, and a trial stretch of length 0
+     * determines it */
     float wish = stretch / s.h;
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
         KD_MARCH_SPEND(KD_MARCH_STRETCH)
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
               least = KD_MARCH_SHORTEST;
         float next = from + length_;
-        length_ = next - from; /* the length after rounding */
+        length_ = next - from; /* length of the stretch after rounding */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
         kd_stokes_trial polarised = kd_stokes_begin();
         KD_PROBE_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three nodes */
-        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough for the first length */
+        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough for the trial stretch */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -424,7 +430,8 @@ struct kd_march_way {
     bool goes, lost;
 };
 
-/* Bounds of a step's quintic: least and largest of its Bernstein coefficients (Farouki & Rajan 1987). */
+/* Least and largest of a quintic's Bernstein coefficients, which are bounds of its values in the step (Farouki & Rajan
+ * 1987). */
 vec2 kd_quintic_hull(kd_quintic q)
 {
     float b1 = q.c0 + 0.2 * q.c1, b2 = q.c0 + 0.4 * q.c1 + 0.1 * q.c2, b3 = q.c0 + 0.6 * q.c1 + 0.3 * q.c2 + 0.1 * q.c3;
@@ -445,7 +452,7 @@ bool kd_march_matters(kd_march_way y)
     return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
 }
 
-/* Completes the current step, unless it was the last. */
+/* Completes the current step. The next step starts at its end, unless this step was the last one. */
 void kd_march_leave(inout kd_march_way y)
 {
     bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
@@ -467,13 +474,13 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     y.q = kd_path_step(y.m, y.p, y.h);
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
-    y.lost = y.lost || y.steps++ >= 12u * STEPS; /* the ray circles without end */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* if w is not finite, the ray has fallen in */
+    y.lost = y.lost || y.steps++ >= 12u * STEPS; /* y.lost is set if the ray circles without end */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* stops if w is not finite, because the ray has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 
-/* Advances to the next step that matters. The other steps are cheap and have a loop of their own, because lavapipe
- * skips work only by leaving a loop. */
+/* Advances to the next step that may have light. The steps before it are cheap and have a loop of their own, because
+ * lavapipe skips work only by leaving a loop. */
 void kd_march_advance(inout kd_march_way y, kd_ray ray)
 {
     bool far = true;
@@ -561,7 +568,7 @@ kd_march_way kd_march_begin(kd_ray ray, float left)
 }
 
 #ifdef KD_PIECES
-/* Repeats the steps of earlier pieces. */
+/* Repeats the steps that earlier pieces have completed, to restore the state of the ray. */
 void kd_march_again(inout kd_march_way y, kd_ray ray)
 {
     y.stretch = kd_march_at.stretch;
@@ -574,8 +581,8 @@ void kd_march_again(inout kd_march_way y, kd_ray ray)
 }
 #endif
 
-/* Follows one ray up to a Mino time, before which it crosses the plane `crossings` times. Light from the end of the ray
- * is left out. */
+/* Follows one ray up to the Mino time `time`. crossings: number of times that the ray crosses the plane before that
+ * time. Light from the end of the ray is left out. */
 void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint crossings)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -611,7 +618,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
         KD_MARCH_GIVEN_UP(beam);
     KD_PROBE_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0;
-         n++) { /* these crossings are beyond the volumes */
+         n++) { /* composes the remaining crossings, which are beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

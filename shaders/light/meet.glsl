@@ -1,22 +1,23 @@
 /* Finds the first body that a ray meets (emit/bodies.glsl). Composes its light with everything before it: crossings of
  * the lens map, and volumes by the march.
  *
- * The ray is traced by the steps of ray/escape.glsl. With n the direction from the hole in Boyer-Lindquist azimuths,
- * and w = 1/r, a point is X = n/w. Relative to a point c the ray's point is along Z = n - w c, and X' is along e = n' w
- * - n w'. e stays finite at infinity and is almost constant where space is flat. So the ray is nearest to c where Z.e
- * changes sign, at most once a step.
+ * The ray is traced by the steps of ray/escape.glsl. A point of the ray is X = n/w, with n the direction from the hole
+ * (in Boyer-Lindquist azimuths) and w = 1/r. For a fixed point c, X - c is parallel to Z = n - w c, and the ray's
+ * direction X' is parallel to e = n' w - n w'. e stays finite at infinity and is almost constant where space is flat.
+ * So the ray is nearest to c where Z.e changes sign, which happens at most once a step.
  *
  * lavapipe skips work only by leaving a loop. The inner loops take steps, and descend the tree of balls, until each ray
- * of a group is near a body or has no more steps. The outer loop then tests the body closely. Needs
+ * of a group is near a body or has no more steps. The outer loop then tests the body closely. This file needs
  * light/march.glsl. */
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
-/* A ray is tested closely if its distance from the ball is less than this times r, plus 0.1 of its radius */
+/* A body is tested closely if the ray's distance from its ball is less than this times r, plus 0.1 of the ball's radius
+ */
 #define KD_MEET_SLACK 0.02
 #define KD_MEET_FAR 1e30
 
-/* An end of a step. p: (n, w); d: the change of (n, w) over a step. */
+/* One end of a step. p: (n, w). d: derivative of (n, w), times the length of the step. */
 struct kd_met_end { vec4 p, d; };
 
 kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float chi)
@@ -47,15 +48,15 @@ bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
     return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
 }
 
-/* A point of a ray in the frame of a body. ahead: t' w. off2: square of b w. rate: Mino time, in steps, per unit of
- * t'. */
+/* A point of a ray in the frame of a body, at the time t' and the distance b. ahead: t' w. off2: square of b w. rate:
+ * Mino time, in units of the step, per unit of t'. */
 struct kd_met_sight { float ahead, off2, rate; };
 
 kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)
 {
     vec4 p = vec4(e.p.xyz, e.p.w), d = e.d;
     vec3 y = vec3(dot(a, p), dot(b, p), dot(c, p)), f = p.w * vec3(dot(a, d), dot(b, d), dot(c, d)) - d.w * y;
-    /* In rotating coordinates light moves along n + turn e_phi, with the length that makes n a unit vector. */
+    /* In rotating coordinates light moves along n + turn e_phi. Its length long_ is such that n is a unit vector. */
     float f2 = max(dot(f, f), 1e-36),
           long_ = (-turn * f.z + sqrt(max(turn * turn * f.z * f.z + (1.0 - turn * turn) * f2, 0.0))) / f2;
     vec3 n = -long_ * f;
@@ -66,7 +67,7 @@ kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float
     return kd_met_sight(v.w * (t - dot(v.xyz, y)), max(dot(y, y) - t * t, 0.0), long_ * p.w * p.w / (v.w * slow));
 }
 
-/* Time within the step at which the ray reaches the surface; above 1: the ray does not reach it. */
+/* Time within the step at which the ray reaches the surface of a body; above 1 if the ray does not reach it. */
 float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 {
     vec4 r0 = kd_body_row(body, 0u), r1 = kd_body_row(body, 1u), r2 = kd_body_row(body, 2u), v = kd_body_row(body, 3u),
@@ -76,7 +77,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
     float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
     bool within = s0.ahead * s0.ahead + s0.off2 < in0 * in0, ends_within = s1.ahead * s1.ahead + s1.off2 < in1 * in1;
     bool passes = s0.ahead > 0.0 && (s1.ahead <= 0.0 || b.p.w <= 0.0);
-    /* The point nearest to the centre in the body's frame, where t' = 0. */
+    /* The time of the point nearest to the centre in the body's frame, where t' = 0. */
     float t = passes ? clamp(s0.ahead / max(s0.ahead - s1.ahead, 1e-30), 0.0, 1.0) : 1.0, enters = 2.0, off = 1.0;
     for (int k = 0; k < 3; k++) {
         kd_met_end e = kd_met_between(a, b, t);
@@ -89,7 +90,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
             enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
     }
     bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
-    /* Solves again from the surface found, because the ray's position and direction have changed. */
+    /* One more iteration from the surface found, because the ray's position and direction differ there. */
     t = clamp(enters, 0.0, 1.0);
     kd_met_end e = kd_met_between(a, b, t);
     kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);
@@ -101,19 +102,20 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 
 kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
 
-/* The node after the subtree of this node, which is next if the ray is far from this node. 0: there is none. */
+/* The node that follows the subtree of `node`. The search continues there if the ray is far from `node`. 0 if there is
+ * none. */
 uint kd_met_next(uint node)
 {
     uint next = (node + 1u) >> uint(findLSB(node + 1u));
     return next == 1u ? 0u : next;
 }
 
-/* True if the search of this ray is incomplete. A driver may end loops before their condition does, and thousands of
- * overlapping bodies exceed lavapipe's limit. */
+/* True if the search of this ray is incomplete, because a driver ended a loop early. Thousands of overlapping bodies
+ * exceed lavapipe's limit. */
 bool kd_meet_lost = false;
 
-/* up to this fraction of the horizon's 1/r, a step covers at most half the way to the horizon, where azimuths
- * diverge */
+/* A step covers at most half the way to the horizon, where azimuths diverge, until 1/r is this fraction of the
+ * horizon's 1/r */
 #define KD_MEET_CLOSE 0.995
 
 kd_met kd_meet(uvec2 place)
@@ -133,13 +135,14 @@ kd_met kd_meet(uvec2 place)
                 !(INGOING && !kd_from_outside(m, ray.w, ray.e, cam.spin, cam.horizon)),
          first = true;
     uint crossed = 0u, node = 0u, taken = 0u,
-         top = emission.bodies.leaves > 1u ? 2u : 1u; /* children of the ball round all bodies */
+         /* the first child of the root, or the root itself if it is a leaf; the root's ball was tested already */
+        top = emission.bodies.leaves > 1u ? 2u : 1u;
     b = kd_met_end_of(m, ray, p, 1.0,
                       INGOING ? drag.chi + drag.fallen + drag.way * kd_drag_fall(p.y.w, cam.spin, cam.root) : drag.chi);
     for (;;) {
         uint leaf = 0u;
         while (leaf == 0u && (goes || node != 0u)) {
-            while (goes && node == 0u) { /* takes steps until one comes near bodies */
+            while (goes && node == 0u) { /* takes steps until a step comes near bodies */
                 bool passed = q.y.z * side < 0.0;
                 side = passed ? -side : side;
                 crossed += passed ? 1u : 0u;
@@ -150,7 +153,7 @@ kd_met kd_meet(uvec2 place)
                 /* azimuths diverge at the horizon, so the ray first steps to a point before it */
                 if (p.v.w > 0.0 && p.y.w < near_horizon)
                     h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
-                /* then each step covers half the way to the horizon */
+                /* then each step covers half the remaining way to the horizon */
                 else if (p.v.w > 0.0 && p.y.w < KD_MEET_CLOSE * cam.horizon)
                     h = min(h, 0.5 * (cam.horizon - p.y.w) / p.v.w);
                 q = kd_path_step(m, p, h);
@@ -174,7 +177,8 @@ kd_met kd_meet(uvec2 place)
                 leaf = near && one ? node : 0u;
                 node = near && !one ? 2u * node : kd_met_next(node);
             }
-            goes = goes && !(leaf == 0u && met.body != KD_NOBODY); /* later steps are behind the body */
+            /* stops after a body was met, because later steps are behind it */
+            goes = goes && !(leaf == 0u && met.body != KD_NOBODY);
         }
         if (leaf == 0u)
             break;
@@ -186,7 +190,7 @@ kd_met kd_meet(uvec2 place)
             met = kd_met(time, body, crossed + (q.y.z * side < 0.0 && e.p.z * side < 0.0 ? 1u : 0u), max(e.p.w, 1e-12),
                          e.p.z, -kd_atan2(e.p.y, e.p.x), per * e.d.w, per * e.d.z, ray.e, m.momentum, cosine);
         }
-        if (node == 0u && met.body != KD_NOBODY) /* later steps are behind the body */
+        if (node == 0u && met.body != KD_NOBODY) /* stops after a body was met, because later steps are behind it */
             break;
     }
     kd_meet_lost = node != 0u || (goes && met.body == KD_NOBODY);

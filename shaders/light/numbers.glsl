@@ -1,9 +1,9 @@
-/* Computes the numbers of a place on a ray, even if the picture does not show them: for layers (shared/layers.h) and
- * for explaining a ray. Needs light/inputs.glsl. */
+/* Computes the physical numbers of a place on a ray, even if the picture does not show them. They are used by layers
+ * (shared/layers.h) and to describe a ray. Needs light/inputs.glsl. */
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
-/* Ratio of the frequency that the observer measures to the frequency in the frame of the gas. It does not depend on
+/* g: ratio of the frequency that the observer measures to the frequency in the frame of the gas. It does not depend on
  * whether the picture applies the shift. */
 float kd_layer_g(kd_sample s)
 {
@@ -19,11 +19,13 @@ float kd_layer_temperature(kd_sample s)
         return emission.plunge.temperature * emission.disk.peak;
     float r = 1.0 / s.w, t = emission.disk.peak * kd_disk_heat(s.w) * inversesqrt(r * sqrt(r));
     return KD_HAS(gas) && KD_GAS_TAKEN > 0u ? t * exp(0.25 * kd_gas_excess(s))
-                                            : t; /* the flux is proportional to the fourth power of the temperature */
+                                            /* the fourth root, because the flux is proportional to the fourth
+                                             * power of the temperature */
+                                            : t;
 }
 
 #ifdef KD_MARCH
-/* kd_layer_g for a surface, by its emitter. */
+/* g of a surface, by the emitter to which the surface belongs. */
 float kd_layer_met_g(kd_met met)
 {
 #define KD_MET_G_(number, name) \
@@ -46,9 +48,10 @@ float kd_layer_met_temperature(kd_met met)
 /* Reduces an azimuth to (-pi, pi]. */
 float kd_layer_turned(float phi) { return phi - 2.0 * KD_PI * ceil((phi - KD_PI) * (0.5 / KD_PI)); }
 
-/* An angle from its cosine. The cosine of the angle between light and the disk's normal in the frame of the gas is g
- * |p_theta| / r. Here p_theta / r is the photon's momentum along the normal, with p_theta^2 = Q in the equatorial
- * plane, and 1/g is its energy there. For gas that moves within the plane the normal is along theta (Carter 1968). */
+/* An angle from its cosine. It is used for the angle between light and the disk's normal in the frame of the gas, whose
+ * cosine is g |p_theta| / r. Here p_theta / r is the photon's momentum along the normal, with p_theta^2 = Q in the
+ * equatorial plane, and 1/g is the photon's energy in the frame of the gas. For gas that moves within the plane the
+ * normal is along theta (Carter 1968). */
 float kd_layer_angle(float c) { return kd_angle_upper(clamp(c, -1.0, 1.0), sqrt(max(1.0 - c * c, 0.0))); }
 
 #endif

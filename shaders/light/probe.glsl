@@ -1,20 +1,19 @@
-/* Describes what each emitter contributes to one ray, in the kernel that makes the picture. If transfer.comp is
- * compiled with KD_PROBE, it writes records to binding 3 instead of light. Otherwise this file compiles to nothing. The
- * first number is the count of records, including those that did not fit. The two sums follow at fixed places, in this
- * order, so that other records cannot displace them. A record is KD_PROBE_RECORD numbers, the first of which is its
- * kind:
+/* Describes what each emitter contributes to one ray. If transfer.comp, which makes the picture, is compiled with
+ * KD_PROBE, it writes records to binding 3 instead of light. Otherwise this file compiles to nothing. The first number
+ * is the count of records, including those that did not fit. The records FRONT and WHOLE follow first, at fixed places,
+ * so that other records cannot displace them. A record has KD_PROBE_RECORD numbers. The first number is its kind:
  *
  *   KD_PROBE_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), emission angle, transmission
  *                     of everything in front
- *   KD_PROBE_OF_PLACE  an emitter there: its number, light, opacity, transmitted fraction of its light
- *   KD_PROBE_ENDS      the end: cosine of the polar angle, azimuth, footprint
- *   KD_PROBE_OF_END, KD_PROBE_OF_POINTS   an emitter there: its number, light
+ *     KD_PROBE_OF_PLACE  an emitter at that place: its number, light, opacity, transmitted fraction of its light
+ *     KD_PROBE_ENDS      the ray's end: cosine of the polar angle, azimuth, footprint
+ *     KD_PROBE_OF_END, KD_PROBE_OF_POINTS   an emitter at the ray's end: its number, light
  *   KD_PROBE_ALONG     a stretch through volumes: w and u at both ends, contributed light, transmission before and
  *                     after it; followed by KD_PROBE_ALONG_AT: the delay of light from both ends
  *   KD_PROBE_OF_VOLUME a volume, for the whole ray: its number, light as it arrives, optical depth
  *   KD_PROBE_MET       an opaque surface: number of its emitter, light, its index, crossings before it, cosine of the
  *                     emission angle, transmission in front; followed by KD_PROBE_MET_AT: w, u, azimuth, g
- *   KD_PROBE_POLARIZED for the place before it: Stokes Q and U of its light over I
+ *     KD_PROBE_POLARIZED for the place recorded before: ratios of Stokes Q and U to I
  *   KD_PROBE_LOST      the ray was given up
  *   KD_PROBE_FRONT     sums without what lies at the ray's end: light, transmission, steps and samples of the march,
  *                     Stokes Q, U and V of volumes, and 1 if these were computed, else 0
@@ -93,8 +92,8 @@ void kd_probe_place(kd_sample s, float through)
 #define KD_PROBED_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume. kd_place_: at a sample, per unit of the affine parameter. kd_tried_: of the current
- * stretch. kd_probed_: of all accepted stretches. */
+/* Light and depth of each volume. kd_place_name: at a sample, per unit of the affine parameter. kd_tried_name: of the
+ * current stretch. kd_probed_name: of all accepted stretches. */
 float kd_probed_steps = 0.0, kd_probed_places = 0.0;
 #define KD_PROBE_NONE_(number, name)
 #define KD_PROBE_VOLUME_(number, name) \
@@ -115,7 +114,7 @@ KD_PROBE_VOLUMES_(KD_PROBE_VOLUME_)
         KD_PROBE_VOLUMES_(KD_PROBE_ON_) \
     }
 /* The stretch's light may exceed the sum over its samples. The excess is divided among the volumes in proportion to
- * that sum. */
+ * their parts of that sum. */
 #define KD_PROBE_TAKE_(number, name) kd_probed_##name += kd_tried_##name * vec4(share, 1.0);
 #define KD_PROBE_TAKE(before, tried, rest) \
     { \

@@ -13,33 +13,34 @@
 #ifndef KD_STOKES_GLSL
 #define KD_STOKES_GLSL
 
-/* The matrix s + (re + i im).sigma, s a complex number. */
+/* The 2 x 2 matrix s + (re + i im).sigma, where s is a complex number. */
 struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter. light: its light. depth: its depth for I. takes: its absorption of Q, U and V. turns: the
- * rotation that it gives to Q, U and V. */
+/* A length of matter. light: its emission. depth: optical depth for I. takes: absorption of Q, U and V. turns: rotation
+ * of Q, U and V. */
 struct kd_stokes {
     vec4 light;
     float depth;
     vec3 takes, turns;
 };
-/* The effect of such a length at its side towards the observer: on light from behind, and by its own light. */
+/* The effect of a length of matter. light: its own light, as it leaves at the side towards the observer. through: the
+ * matrix that acts on light from behind. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
 };
 
-/* below this |lambda|, or below a tenth of a larger depth, series replace differences of nearly equal numbers. At this
- * limit both forms are accurate to about 1e-6 */
+/* Series replace differences of nearly equal numbers where |lambda| is below this limit, or below a tenth of the depth
+ * if that is larger. At this limit both forms are accurate to about 1e-6 */
 #define KD_STOKES_NEAR 0.25
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
 kd_jones kd_jones_one() { return kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0)); }
 
-/* The product of a and b. Light goes through b first. */
+/* The product of a and b, for light that goes through b first. */
 kd_jones kd_jones_times(kd_jones a, kd_jones b)
 {
     vec2 s = kd_complex_times(a.s, b.s) + vec2(dot(a.re, b.re) - dot(a.im, b.im), dot(a.re, b.im) + dot(a.im, b.re));
@@ -48,7 +49,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* The form `one` S + (b c + (b c)*) S + `two` c S c*, where b c = p + i q and c = re + i im. */
+/* The sum `one` S + (b c + (b c)*) S + `two` c S c*, where b c = p + i q and c = re + i im. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);
@@ -64,17 +65,18 @@ vec4 kd_jones_on(kd_jones a, vec4 s)
     return kd_stokes_forms(s, dot(a.s, a.s), a.s.x * a.re + a.s.y * a.im, a.s.x * a.im - a.s.y * a.re, 1.0, a.re, a.im);
 }
 
-/* Transmission for unpolarised light. */
+/* Transmission of unpolarised light by a. */
 float kd_jones_through(kd_jones a) { return dot(a.s, a.s) + dot(a.re, a.re) + dot(a.im, a.im); }
 
-/* Limits polarisation to 1 in spite of rounding. */
+/* Limits the degree of polarisation to 1 in spite of rounding. */
 vec4 kd_stokes_sound(vec4 s)
 {
     float i = max(s.x, 0.0), part = i > 0.0 ? kd_part_of(s.yzw, i) : 0.0;
     return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
-/* The mean of exp(-y s) for s from 0 to 1, for a real y. The next function is for a complex y with a given exp(-y). */
+/* The mean of exp(-y s) for s from 0 to 1. Here y is real. The next function is for a complex y whose exp(-y) is given.
+ */
 float kd_stokes_mean(float y)
 {
     return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))
@@ -94,8 +96,8 @@ vec2 kd_stokes_mean(vec2 y, vec2 passes)
     return y2 < 0.25 ? sum : vec2(dot(size, y), size.y * y.x - size.x * y.y) / y2;
 }
 
-/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards if t is large, otherwise
- * downwards from a sum of positive terms. */
+/* The means of s^k exp(-t s) for k from 1 to 6. The recursion runs in its stable direction: upwards if t is large,
+ * otherwise downwards from a sum of positive terms. */
 struct kd_stokes_moments { float m1, m2, m3, m4, m5, m6; };
 kd_stokes_moments kd_stokes_moments_of(float t)
 {
@@ -123,7 +125,7 @@ kd_stokes_moments kd_stokes_moments_of(float t)
     return m;
 }
 
-/* Lambda_1 >= 0 and Lambda_2, relative to `size`: from the square root of (a + i rho)^2. */
+/* (Lambda_1, Lambda_2), each divided by `size`: the square root of (a + i rho)^2 with Lambda_1 >= 0. */
 vec2 kd_stokes_root(vec3 a, vec3 rho)
 {
     float re = dot(a, a) - dot(rho, rho), im = 2.0 * dot(a, rho), big = sqrt(0.5 * (sqrt(re * re + im * im) + abs(re)));
@@ -136,7 +138,8 @@ kd_stokes_cell kd_stokes_cell_of(kd_stokes m)
     vec3 largest = max(abs(m.takes), abs(m.turns));
     float t = m.depth, size = max(max(largest.x, max(largest.y, largest.z)), 1e-30);
     vec2 lambda = size * kd_stokes_root(m.takes / size, m.turns / size);
-    lambda.x = min(lambda.x, t); /* t - lambda.x, the least absorption of a polarisation, is not negative */
+    /* t - lambda.x, the absorption of the least absorbed polarisation, must not be negative */
+    lambda.x = min(lambda.x, t);
     float square = dot(lambda, lambda), per = 1.0 / max(square, 1e-30), around = lambda.y * (0.5 / 6.28318531);
     bool near = square < max(KD_STOKES_NEAR * KD_STOKES_NEAR, 0.01 * t * t);
     kd_phasor half_ = kd_cos_sin(6.28318531 * clamp(around - floor(around), 0.0, 1.0));
@@ -153,7 +156,7 @@ kd_stokes_cell kd_stokes_cell_of(kd_stokes m)
     cell.passes = kd_jones(vec2(both * c.x, apart * c.y), over.y * m.turns - over.x * m.takes,
                            -over.x * m.turns - over.y * m.takes);
 
-    /* Means of exp(-t s) times |cosh|^2, |sinh/lambda|^2 and cosh* sinh/lambda of lambda s/2. */
+    /* Means, over s from 0 to 1, of exp(-t s) times |cosh|^2, |sinh/lambda|^2 and cosh* sinh/lambda of lambda s/2. */
     float low = kd_stokes_mean(t - lambda.x), high = kd_stokes_mean(t + lambda.x), e = exp(-t);
     vec2 around_ = kd_stokes_mean(vec2(t, -lambda.y), e * vec2(c.x * c.x - c.y * c.y, 2.0 * c.x * c.y));
     float cosh_ = 0.5 * (low + high), one = 0.5 * (cosh_ + around_.x), two = 0.5 * per * (cosh_ - around_.x);

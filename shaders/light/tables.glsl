@@ -17,7 +17,7 @@ kd_table_places kd_tables()
     KD_EMIT_TABLES
     return at;
 }
-/* Computed once in a kernel; otherwise the driver would fold the constants again at each read. */
+/* The offsets are computed once in a kernel. Otherwise the driver would fold the constants again at each read. */
 kd_table_places kd_table_at = kd_tables();
 /* A row of a table, by the table's name. */
 #define kd_table_row(table, row) texelFetch(tables, int(kd_table_at.table + (row)))

@@ -1,7 +1,7 @@
 /* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS pixels. There are two variants. KD_MARCH is for scenes with volumes: it follows the rays themselves,
- * and a dispatch follows the ray with the number slice.ray of each pixel. KD_PIECES continues the rays that KD_MARCH
- * could not complete, one piece at a time. */
+ * KD_TRANSFER_ROWS pixels. There are two variants for scenes with volumes, which follow the rays themselves. With
+ * KD_MARCH a dispatch follows one ray of each pixel, the ray with the number slice.ray. With KD_PIECES a dispatch
+ * continues the rays that KD_MARCH could not complete, by one piece. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -17,7 +17,8 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #ifndef KD_PROBE
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
-/* The buffer of light, for the list of rays that were not completed, which follows the light (KD_LOST_...). */
+/* The buffer of light once more, as words, for the list of rays that were not completed. The list follows the light
+ * (KD_LOST_...). */
 layout(set = 0, binding = 3) buffer Lost { uint lost_rays[]; };
 layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 #endif
@@ -38,11 +39,11 @@ void forget_stokes()
     untold = false;
 }
 
-/* True if a crossing has light; w < 0: the mark of a ray that was given up. */
+/* True if a crossing at w has light, or if w is negative, which marks a ray that was given up. */
 bool has_light(float w) { return w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most); }
 
-/* Composes a crossing of order n of the ray at this place of the camera, with index `at` in the lens map. w = 1/r;
- * negative: the ray was given up on its way to the crossing. */
+/* Composes the crossing of order n of the ray at `place` in the camera, with index `at` in the lens map. w = 1/r of the
+ * crossing; it is negative if the ray was given up on its way to the crossing. */
 void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
@@ -70,7 +71,8 @@ void meet(inout kd_beam beam, float w, uint n, uvec2 place, uint at)
     }
 }
 
-/* A map may hold the ends of rays only because layers need them: the picture must not depend on that. */
+/* True if the picture shows the ends of rays. A map may hold these ends only because layers need them; the picture must
+ * not depend on that. */
 const bool ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) * (QUANTITIES & KD_LENS_FATE) != 0u;
 
 /* Light behind all crossings. */
@@ -118,8 +120,8 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 #else
-/* w of the ray's first crossing with light from number n on, which n becomes; 0 if there is none. A probe reports every
- * crossing. */
+/* w of the ray's first crossing with light, from crossing n on; 0 if there is none. Sets n to the number of that
+ * crossing. A probe reports every crossing, with light or without. */
 float next_crossing(uint at, inout uint n)
 {
     float w = 0.0;
@@ -189,8 +191,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* Numbers that follow the light of the band's pixels, one for each pixel in each plane: the separate luminance; Stokes
- * Q, U and V of all light; Q and U of the separate light. */
+/* Planes of numbers that follow the light of the band's pixels, with one number for each pixel. They are the separate
+ * luminance; Stokes Q, U and V of all light; and Q and U of the separate light. */
 const uint STOKES_AT = KD_SEPARATE_PHOTOMETRY ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
@@ -212,12 +214,12 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 /* COLUMNS: an invocation lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind
  * them. Pixels without light are not written; they were set to black before.
  *
- * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So a first loop finds what has
- * light, which is cheap, and a second one lights only that. With diffuse light on the sky every pixel has light, and
- * the search would only cost time. */
+ * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So a first, cheap loop finds the
+ * pixels and crossings that have light, and a second loop lights only these. With diffuse light on the sky every pixel
+ * has light, and the search would only cost time. */
 #ifdef KD_MARCH
-const bool COLUMNS = false, SAMPLES = CRITICAL == 0; /* the march's error is measured on a lattice of pixels
-                                                      * (src/render/frame/march_error.c) */
+/* not for the march, whose error is measured on a lattice of pixels (src/render/frame/march_error.c) */
+const bool COLUMNS = false, SAMPLES = CRITICAL == 0;
 #else
 const bool SAMPLES = false;
 const bool COLUMNS =
@@ -228,7 +230,7 @@ const bool COLUMNS =
  * again afterwards. This saves time, because most pixels have no points. */
 void point_column(uint x, uint y, uint end)
 {
-    uint has = 0u; /* bit k: whether the pixel in row y + k has points of light, or its ray has no end */
+    uint has = 0u; /* bit k is set if the pixel in row y + k has points of light, or if its ray has no end */
     [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
         uint row = min(y + k, end - 1u);
         float fate = quantity(KD_LENS_FATE, (row - slice.band0) * cam.width + x);
@@ -243,11 +245,11 @@ void point_column(uint x, uint y, uint end)
     } while (has != 0u);
 }
 
-/* Rows whose crossings fit the bits of one word. */
+/* Number of rows whose crossings fit in the bits of one word. */
 const uint AHEAD = KD_TRANSFER_ROWS * ORDERS > 32u ? 32u / ORDERS : KD_TRANSFER_ROWS;
 
 /* The crossings with light of AHEAD pixels of a column, from row y on: bit ORDERS k + n for order n of row y + k. All
- * of them are read before the first one is lit, so that the reads wait for memory together. */
+ * crossings are read before the first one is lit, so that the reads wait for memory together. */
 uint lit_of(uint x, uint y, uint end)
 {
     uint at = (y - slice.band0) * cam.width + x, lit = 0u, n = 0u;
@@ -280,12 +282,13 @@ void light_rows(uint x, uint y, uint end)
             vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
             store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
         }
-        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of this ray */
+        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of the ray of row y + k */
         lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
     } while (lit != 0u);
 }
 
-/* Place of a ray of a pixel, whose index in the list is `listed`. map_of: the ray's index in the lens map. */
+/* Place of a ray of a pixel in the camera. listed: index of the pixel in the list. map_of: index of the ray in the lens
+ * map. */
 uvec2 place_of(uvec2 pixel, uint ray)
 {
     return CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);
@@ -295,7 +298,7 @@ uint map_of(uvec2 place, uint listed, uint ray)
     return CRITICAL > 0 ? listed * CRITICAL + ray : (place.y - slice.band0) * cam.width + place.x;
 }
 
-/* Follows the ray; its light goes to `to`. */
+/* Follows one ray. Its light goes to index `to`. */
 kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
 {
     uvec2 place = place_of(pixel, ray);
@@ -327,10 +330,11 @@ void store_ray(uint to, kd_beam beam, bool adds)
     store(to, sum, apart, all, spots);
 }
 
-/* Index of a word of the list, which counts from the end of the buffer. */
+/* Index of a word of the list. `at` counts back from the end of the buffer. */
 uint lost_word(uint at) { return lost_rays.length() - at; }
 
-/* Lists a ray that was not completed. It has no light yet. If there is no room in the list, the ray is given up. */
+/* Lists a ray that was not completed, and gives it no light yet. If the list is full, the ray is given up. name: number
+ * of the ray (KD_LOST_...). */
 void lose(inout kd_beam beam, uint name)
 {
     uint n = atomicAdd(lost_rays[lost_word(KD_LOST_LISTED)], 1u);
@@ -345,7 +349,7 @@ void lose(inout kd_beam beam, uint name)
 #endif
 
 #ifdef KD_PIECES
-/* Saved state of a ray between two pieces. */
+/* Offset of the state of a ray, which is saved between two pieces. */
 uint state_at() { return lost_word(KD_LOST_STATES) - (gl_GlobalInvocationID.x + 1u) * KD_LOST_STATE; }
 
 kd_beam begin_piece()
@@ -394,8 +398,8 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Each pixel has several listed rays. For each pixel, this function follows the next piece of the ray with the number
- * slice.ray, if that ray waits. */
+/* A pixel may have several listed rays. For each pixel, this function follows the next piece of the ray with the number
+ * slice.ray, if that ray is unfinished. */
 void main()
 {
     kd_camera_read();
@@ -430,8 +434,8 @@ void main()
     store_ray(to, beam, true);
 }
 #else
-/* The march processes one ray an invocation. lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
- * passes in total; the successive rays of a pixel through turbulent gas would reach that limit. */
+/* With the march an invocation processes one ray. lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
+ * passes in total. If an invocation processed all rays of a pixel, they would reach that limit in turbulent gas. */
 void main()
 {
     kd_camera_read();

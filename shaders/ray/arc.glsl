@@ -5,33 +5,34 @@
  *
  *   g'^2 = 4g + A g^2 + e^2 D g^3 + G g^4,    G = e^2 (K^2 + A D)/4,    g = z^2 + ...,
  *
- * Biermann's formula (Whittaker & Watson 20.6) leads from v, v' at one time to v at z before or after it:
+ * Biermann's formula (Whittaker & Watson 20.6) gives v at the time z after or before a point with the known values v
+ * and v':
  *
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
  *
- * g has its pole at the time from v = 0 to v = K/D, which is inside the horizon. No stretch outside the horizon lasts
- * that long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same
- * time before and after each crossing. The pair comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z
- * sqrt|A| = pi/2. For larger z it comes from the duplication formula from z to 2z.
+ * g has a pole where z is the time from v = 0 to v = K/D, which is inside the horizon. No stretch outside the horizon
+ * lasts that long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the
+ * same time before and after each crossing. The pair comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up
+ * to z sqrt|A| = pi/2. For larger z it comes from the duplication formula from z to 2z.
  *
- * The unit of time is a power of two, so that scaling causes no rounding. This unit is chosen such that 1 <= |A| < 4. A
- * half period then lasts from pi/2 to pi. Rays with b below about 1 have a smaller A. Their half periods are longer,
- * but these rays are captured or escape long before one ends. */
+ * The unit of time is a power of two, so that scaling causes no rounding. It is chosen such that 1 <= |A| < 4. A half
+ * period then lasts from pi/2 to pi. Rays with b below about 1 have a smaller A. Their half periods are longer, but
+ * these rays are captured or escape long before one ends. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL
 
 #include "ray/radial_step.glsl"
 
 struct kd_lattice {
-    float a, d, g;                    /* coefficients of g'^2: A, e^2 D, G       */
+    float a, d, g;                    /* coefficients of g'^2: a is A, d is e^2 D, g is G */
     float c2, c3, c4, c5, c6, c7, c8; /* coefficients of the series z^2/g = 1 - A z^2/12 + c2 z^4 + c3 z^6 + ... */
 };
 
-/* f is scaled: time z = scale tau, v = scale w. */
+/* Constants of a scaled path: the time is z = scale tau, and v = scale w. */
 struct kd_arcs {
     float scale, unit; /* scale, and 1/scale */
-    float k, d;        /* K, D        */
+    float k, d;        /* K and D of the scaled f */
     kd_lattice l;
 };
 
@@ -67,7 +68,7 @@ kd_arcs kd_arcs_of(kd_geodesic m, float e)
 
 struct kd_arc { float g, dg; };
 
-/* The series, for |z| up to pi/2. */
+/* g and g' by the series, for |z| up to pi/2. */
 kd_arc kd_arc_short(kd_lattice l, float z)
 {
     kd_arc o;
@@ -79,7 +80,7 @@ kd_arc kd_arc_short(kd_lattice l, float z)
         (l.c2 + y * (2.0 * l.c3 +
                      y * (3.0 * l.c4 + y * (4.0 * l.c5 + y * (5.0 * l.c6 + y * (6.0 * l.c7 + y * (7.0 * l.c8)))))));
     float inv = 1.0 / (1.0 + sum), part = sum * inv;
-    /* Small corrections to the values that g and g' have where the series is 1. */
+    /* Small corrections to z^2 and 2z, the values that g and g' have where the series is 1. */
     precise float g = y - y * part, turn = z - z * part, dg = turn - turn * (part + slope * inv);
     o.g = g;
     o.dg = 2.0 * dg;
@@ -89,13 +90,13 @@ kd_arc kd_arc_short(kd_lattice l, float z)
 /* g''. */
 float kd_arc_bend(kd_lattice l, float g) { return 2.0 + g * (l.a + g * (1.5 * l.d + g * (2.0 * l.g))); }
 
-/* g at twice the time: the duplication formula of wp, written for g. */
+/* g and g' at twice the time, by the duplication formula of wp, written for g. */
 kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
 {
     kd_arc o;
     float m4 = 0.25 * (l.a * l.g - 0.25 * l.d * l.d), g = p.g;
     float m = g * g * (0.5 * l.d + g * (2.0 * l.g + g * m4)), dm = -g * (l.d + g * (6.0 * l.g + g * (4.0 * m4)));
-    float part = m / (1.0 - m); /* 1/M - 1 */
+    float part = m / (1.0 - m); /* 1/M - 1, where m = 1 - M */
     precise float square = p.dg * p.dg, twice = square + square * part;
     precise float bend = p.dg * (kd_arc_bend(l, g) - 0.5 * twice * dm), dtwice = bend + bend * part;
     o.g = twice;
@@ -103,10 +104,10 @@ kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
     return o;
 }
 
-/* Values at a point of the path that the formula needs. */
+/* A point of the path: v and v', and the values that Biermann's formula needs. */
 struct kd_centre {
     float v, dv;
-    float f, s, c, d; /* F/2, s, c, v'^2 D/4 */
+    float f, s, c, d; /* F/2, s, c and v'^2 D/4 */
 };
 
 kd_centre kd_centre_of(kd_arcs a, kd_state y)
@@ -122,7 +123,7 @@ kd_centre kd_centre_of(kd_arcs a, kd_state y)
     return o;
 }
 
-/* v a time z after the centre, and v a time z before it. */
+/* v at the time z after the centre, and v at the time z before it. */
 vec2 kd_around(kd_centre o, kd_arc z)
 {
     float p = 1.0 - z.g * o.s, inv = 1.0 / (p * p + o.d * z.g * z.g);
@@ -130,7 +131,7 @@ vec2 kd_around(kd_centre o, kd_arc z)
     return o.v + vec2(even + odd, even - odd) * inv;
 }
 
-/* v and v' a time z after the centre. */
+/* v and v' at the time z after the centre. */
 kd_state kd_ahead(kd_arcs a, kd_centre o, kd_arc z)
 {
     kd_state y;

@@ -6,7 +6,7 @@
 
 #include "ray/arc.glsl"
 
-/* g and g' for the times from an end to the nodes. */
+/* g and g' for the times from an end of the stretch to the nodes of the quadrature. */
 struct kd_nodes { kd_arc outer, between, inner, middle; };
 
 kd_nodes kd_nodes_of(kd_lattice l, float z)
@@ -21,9 +21,9 @@ kd_nodes kd_nodes_of(kd_lattice l, float z)
 
 struct kd_drag_terms {
     float a, k, e, root, unit;
-    float e2, al; /* 2E, a L + q^2 E */
-    float all;    /* W = E + `all` w^2 */
-    bool falls;   /* true: the ray falls straight in */
+    float e2, al; /* 2E, and a L + q^2 E */
+    float all;    /* factor of w^2 in W = E + `all` w^2 */
+    bool falls;   /* true if the ray falls straight into the horizon */
 };
 
 kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, float unit, bool falls)
@@ -52,7 +52,7 @@ float kd_drag_at(kd_drag_terms t, float v)
     return num / max(den, 1e-12);
 }
 
-/* Integrates between two points of a path that are separated by the scaled time z; n: the nodes for z. */
+/* Integrates between two points of a path. z: scaled time between the two points. n: the nodes for that time. */
 float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n, float z)
 {
     float sum =
@@ -63,7 +63,7 @@ float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n,
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 
-/* The term that ingoing coordinates leave out, at w. */
+/* The term of the azimuth that ingoing coordinates leave out, at w; 0 for a ray that does not fall. */
 float kd_drag_fallen(kd_drag_terms t, float w) { return t.falls ? t.a * kd_fall(w, t.root) : 0.0; }
 
 #endif

@@ -5,22 +5,24 @@
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* g of the time between this point and w = 0: Biermann's formula with v = 0 at the other end. If the ray still moves
- * inwards at this point, the time counts as long. */
+/* g for the time from this point to w = 0, by Biermann's formula with v = 0 at the other end. If the ray moves inwards
+ * at this point, the result is a large value. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
-/* The inverse of g, to second order. */
+/* The time that belongs to a value of g, to second order in g. */
 float kd_arc_time(kd_lattice l, float g)
 {
     return sqrt(g) * (1.0 + g * (l.a * (-1.0 / 24.0) + g * (l.a * l.a * (3.0 / 640.0) - l.d * (1.0 / 40.0))));
 }
 
-/* Scaled time from `last` to infinity, for a ray that gets there before `next`, a time z later. `middle` is the arc of
- * z/2. The point nearest to infinity gives the time to 1e-3. The value of w after that time gives the correction,
+/* Scaled time from `last` to infinity, for a ray that reaches infinity before `next`. z: time from `last` to `next`;
+ * middle: the arc of z/2. The function first uses the closest of three points to infinity (`last`, the middle, `next`),
+ * which gives the time to 1e-3. Then the value of w at that time gives the correction. A linear correction is enough,
  * because w'' = 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
-    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* points further along are meaningless */
+    /* points later than this are beyond infinity, and have no meaning */
+    float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30;
     kd_state y, half_ = kd_ahead(a, last, middle);
     y.w = last.v;
     y.dw = last.dv;
@@ -45,7 +47,7 @@ float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next
 
 struct kd_direction { float u, psi; };
 
-/* Direction of a ray the given time after it crossed the plane upwards; psi counts from the crossing. */
+/* Direction of a ray at the time `time` after it crossed the plane upwards. psi counts from the crossing. */
 kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, float time)
 {
     kd_direction o;
@@ -53,7 +55,7 @@ kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, floa
     /* lattice of the polar motion, u'^2 = Q + A u^2 - e u^4 */
     kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d);
     kd_arc z = kd_arc_twice(l, kd_arc_short(l, 0.5 * time * a.scale));
-    /* u and u' over sqrt(Q), because Q may be 0. */
+    /* rise, du: u and u' divided by sqrt(Q), because Q may be 0. */
     float inv = 1.0 / (1.0 + 0.25 * d * z.g * z.g), rise = 0.5 * z.dg * inv;
     float u = rise * a.unit, du = (0.5 * kd_arc_bend(l, z.g) - 0.5 * rise * d * z.g * z.dg) * inv;
     float root_q = sqrt(max(m.q, 0.0));
@@ -76,8 +78,9 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
 }
 
 /* Direction of a ray that escapes soon after its start, with psi counted from the start. The function takes four steps
- * of the vector equation of escape.glsl. For a quarter radian the error of a step is below the rounding of a float. A
- * ray that never meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
+ * of the vector equation of escape.glsl. The error of a step of a quarter radian is below the rounding of a float. The
+ * function is also used for rays with an impact parameter below a that never meet the plane: they escape soon if they
+ * start outside the photon orbits. */
 kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

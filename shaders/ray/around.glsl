@@ -4,11 +4,11 @@
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 
-/* Columns and rows of the whole picture: in rays if `side` is 1, in pixels if `side` is SIDE. */
+/* Columns and rows of the whole picture, counted in rays if `side` is 1, in pixels if `side` is SIDE. */
 ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
 
-/* Moves a place outside the picture, by up to a whole picture, into it. With an odd number of columns the place is off
- * by half a column beyond a pole. */
+/* Moves a place outside the picture, by up to a whole picture, into it. If the number of columns is odd, the result is
+ * wrong by half a column for a place beyond a pole. */
 ivec2 kd_around(ivec2 at, ivec2 size)
 {
     bool over = at.y < 0 || at.y >= size.y;
@@ -18,8 +18,8 @@ ivec2 kd_around(ivec2 at, ivec2 size)
     return at;
 }
 
-/* Moves a place next to a ray of the current map to the equivalent place in the map; (-1, -1) if the map does not
- * contain the place. */
+/* Converts a place next to a ray of the current map to the equivalent place in the map. Returns (-1, -1) if the map
+ * does not contain it. */
 ivec2 kd_around_neighbour(ivec2 at)
 {
     if (SIGHT == KD_SIGHT_SPHERE && !AT_RIM) {

@@ -1,6 +1,6 @@
-/* The camera, the rows of this dispatch, and the constants of motion of a ray from its place in the picture. Needs
- * KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). KD_CAMERA_ONLY leaves the rows out, for kernels
- * that have push constants of their own and read `cam` themselves. */
+/* The camera, the rows of this dispatch, and the constants of motion of a ray from its place in the picture. This file
+ * needs KD_CAMERA_BINDING and the specialisation constant SIGHT (KD_SIGHT_). With KD_CAMERA_ONLY it declares no rows:
+ * such kernels have push constants of their own and read `cam` themselves. */
 #ifndef KD_CAMERA_GLSL
 #define KD_CAMERA_GLSL
 
@@ -18,8 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* kd_camera_read reads `cam` and `slice`. Call it before the first branch, because after a branch lavapipe reads them
- * again for each lane and each use. */
+/* kd_camera_read copies the blocks into `cam` and `slice`. It must be called before the first branch, because lavapipe
+ * reads a block again for each lane and each use after a branch. */
 kd_slice slice;
 void kd_camera_read()
 {
@@ -28,7 +28,7 @@ void kd_camera_read()
 }
 #endif
 
-/* Returns the component of a direction along c0; (x, y) become the components along cx and cy. */
+/* Returns the component of a direction along c0. Sets x and y to the components along cx and cy. */
 float kd_camera_ahead(inout float x, inout float y)
 {
     if (SIGHT == KD_SIGHT_SPHERE) {
@@ -40,7 +40,8 @@ float kd_camera_ahead(inout float x, inout float y)
     if (SIGHT == KD_SIGHT_DOME) {
         float d = sqrt(x * x + y * y);
         vec2 off = kd_quarter_turns(d * cam.turn_x);
-        x *= off.y / max(d, 0.25); /* only a ray in the middle itself is nearer to the middle than half a step */
+        /* the quotient is limited, because only the middle ray itself is nearer to the middle than half a step */
+        x *= off.y / max(d, 0.25);
         y *= off.y / max(d, 0.25);
         return off.x;
     }
@@ -60,20 +61,19 @@ kd_ray kd_camera_ray(uint px, uint py)
     float kx = ahead * cam.c0x + x * cam.cxx + y * cam.cyx;
     float ky = ahead * cam.c0y + x * cam.cxy + y * cam.cyy;
     kd_ray ray;
-    if (!FINITE) { /* k is (alpha, beta) */
+    if (!FINITE) { /* at infinity the direction k is (alpha, beta) */
         ray.e = 1.0;
         ray.l = -kx;
         ray.p = ky;
         ray.w = 0.0;
         ray.dw = 1.0;
-    } else { /* k is (k_r, k_theta, k_phi); the photon moves along -k */
+    } else { /* at a finite radius the direction k is (k_r, k_theta, k_phi), and the photon moves along -k */
         float kz = ahead * cam.c0z + x * cam.cxz + y * cam.cyz;
         float n = inversesqrt(kx * kx + ky * ky + kz * kz), m_r = -kx * n, m_theta = -ky * n, m_phi = -kz * n;
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
-                              /* n is multiplied here and not through m, because a product is then rounded one time
-                               * less */
+                              /* multiplied by n here instead of through m, which saves one rounding */
                               n;
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;

@@ -14,18 +14,19 @@ struct kd_path {
     float chi;
 };
 
-struct kd_escape { float u, phi, fate; }; /* phi = psi + chi */
+struct kd_escape { float u, phi, fate; }; /* end of a ray: u = cos(theta), azimuth phi = psi + chi, and fate */
 
 kd_path kd_path_start(kd_ray ray, float u, float s)
 {
     kd_path o;
     o.y = vec4(s, 0.0, u, ray.w);
-    o.v = vec4(-u * ray.p, ray.l, s * ray.p, ray.dw); /* L / sin theta = l: finite on the axis */
+    o.v = vec4(-u * ray.p, ray.l, s * ray.p, ray.dw); /* L / sin(theta), which is l, is finite on the axis */
     o.chi = 0.0;
     return o;
 }
 
-/* Starts on the plane, leaving it upwards (side = 1) or downwards (-1): |u'| = sqrt(Q). */
+/* The path that starts on the plane with |u'| = sqrt(Q). side: 1 if the ray leaves the plane upwards, -1 if downwards.
+ */
 kd_path kd_path_crossing(kd_geodesic m, kd_state y, float psi, float chi, float side)
 {
     kd_path o;
@@ -53,7 +54,7 @@ kd_path kd_path_step(kd_geodesic m, kd_path p, float h)
     return o;
 }
 
-/* Frame dragging over one step: Simpson's rule, with the midpoint from the quintic that fits w, w' and w'' at both
+/* Frame dragging over one step by Simpson's rule. The midpoint comes from the quintic that fits w, w' and w'' at both
  * ends. */
 float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
 {
@@ -65,10 +66,10 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     a.dw = p.v.w;
     c.dw = q.v.w;
     b.dw = -sqrt(max(kd_radial_potential(m, b.w, ray.e, cam.spin, cam.root), 0.0));
-    /* true if the ray still moves inwards at the midpoint */
+    /* uses the midpoint, if the ray still moves inwards there */
     if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw))
         b.dw = -b.dw;
-    if (INGOING) /* the azimuth of an outgoing ray is ingoing from the start, and has no pole here */
+    if (INGOING) /* for INGOING, the azimuth of an outgoing ray is ingoing from the start and has no pole here */
         return h * (1.0 / 6.0) *
                (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
                 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
@@ -81,8 +82,8 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
                 kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* w' of an outgoing ray, from the first integral. Inside the horizon w' is not 0 and may be large. If it were
- * integrated there, its rounding error would matter outside the horizon. */
+/* w' of an outgoing ray, from the first integral. Inside the horizon w' may be large. If it were integrated, its
+ * rounding error there would still be present outside the horizon. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_radial_potential(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
@@ -95,7 +96,8 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
      * 1/sqrt(6K w), for a ray deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
-    /* The loop covers twelve half periods. After these only rays within 1e-13 of the critical curve still circle. */
+    /* The loop covers twelve half periods. Rays that still circle after these are within 1e-13 of the critical curve.
+     */
     for (uint i = 0; i < 12 * STEPS; i++) {
         if (INGOING)
             h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));
@@ -108,7 +110,8 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             break;
         }
         if (q.y.w < 0.0) {
-            /* Finds the zero of the cubic through both ends by Newton's method; then takes one step to this zero. */
+            /* Newton's method finds the zero of the cubic through both ends of the step. Then one step goes to that
+             * zero. */
             float s = p.y.w / (p.y.w - q.y.w), d0 = h * p.v.w, d1 = h * q.v.w, dy = q.y.w - p.y.w;
             float c2 = 3.0 * dy - 2.0 * d0 - d1, c3 = d0 + d1 - 2.0 * dy;
             for (int k = 0; k < 4; k++) {
@@ -118,7 +121,9 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
             o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
-            if (INGOING) /* w is not exactly 0, so the ingoing azimuth still differs from that at infinity */
+            /* the step ends near w = 0, not exactly there, so the ingoing azimuth still differs from that at
+             * infinity */
+            if (INGOING)
                 o.phi -= kd_drag_fall(q.y.w, cam.spin, cam.root);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;

@@ -10,9 +10,9 @@
 struct kd_hole_numbers { float spin, charge2; };
 #define KD_HOLE_OF(block) kd_hole_numbers(block.spin, block.charge2)
 
-/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 from root = sqrt(1 - a^2 - q^2). 1 - w is exact near the horizon of a hole that
- * spins fast, and the two factors keep their precision where the horizons almost coincide. `precise` stops a driver
- * from multiplying the product out, which would lose that precision. */
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2, computed as a product of two factors with root = sqrt(1 - a^2 - q^2). Near the
+ * horizon of a hole that spins fast, 1 - w is exact. So the factors keep their precision where the horizons almost
+ * coincide. `precise` stops a driver from multiplying the product out, which would lose that precision. */
 float kd_delta(float w, float root)
 {
     precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);
@@ -22,15 +22,15 @@ float kd_delta(float w, float root)
 /* Delta/r^2 with a positive lower bound, for use as a divisor. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* The numerator of that part of dt/dtau which has the divisor D (rays.comp), for E = 1. */
+/* The numerator of the part of dt/dtau that has the divisor D (rays.comp), for E = 1. */
 float kd_time_over(kd_hole_numbers hole, float w, float momentum)
 {
     float a = hole.spin, a2w2 = a * a * w * w;
     return 4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * momentum * (1.0 + a2w2) - hole.charge2 * (1.0 + 2.0 * w);
 }
 
-/* kd_quartic_of: D = a^2 Q + q^2 K of the radial quartic. kd_drag_of: aL + q^2 E in the rate of azimuth
- * (kerr_ray.glsl). */
+/* Numbers that depend on the charge. kd_quartic_of: D = a^2 Q + q^2 K, of the radial quartic. kd_drag_of: a L + q^2 E,
+ * of the rate of azimuth (kerr_ray.glsl). */
 float kd_quartic_of(kd_hole_numbers hole, float carter, float k)
 {
     return hole.spin * hole.spin * carter + hole.charge2 * k;
@@ -40,8 +40,8 @@ float kd_drag_of(kd_hole_numbers hole, float momentum, float energy)
     return hole.spin * momentum + hole.charge2 * energy;
 }
 
-/* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w). A series is used where x is small,
- * as for a nearly extremal hole. */
+/* Integral from 0 to w of dw/D. It is 1/(2 root) log(1 + x) with x = 2 root w / (1 - r+ w). A series replaces the
+ * logarithm where x is small, as for a nearly extremal hole. */
 float kd_fall(float w, float root)
 {
     precise float gap = 1.0 - w - root * w;

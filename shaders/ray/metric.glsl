@@ -1,12 +1,13 @@
-/* The metric at a place, for the kernels of light; `cam` has the hole. */
+/* Functions of the metric at a place, for kernels of light. `cam` holds the parameters of the hole. */
 #ifndef KD_METRIC_GLSL
 #define KD_METRIC_GLSL
 
 #include "ray/hole.glsl"
 
-/* aw2: a^2 w^2. delta: Delta/r^2, at least 1e-30. area: A/r^4. sigma: Sigma/r^2. omega: angular velocity of an observer
- * of zero angular momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse
- * is sigma delta / area. u: cosine of the polar angle. s2: square of its sine. */
+/* Numbers of the metric at a place. aw2: a^2 w^2. delta: Delta/r^2, at least 1e-30. area: A/r^4. sigma: Sigma/r^2.
+ * omega: angular velocity of an observer of zero angular momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for
+ * 2r). The square of that observer's lapse is sigma delta / area. In the functions, u is the cosine of the polar angle,
+ * and s2 the square of its sine. */
 struct kd_place { float aw2, delta, area, sigma, omega; };
 kd_place kd_place_at(float w, float u, float s2)
 {
@@ -17,7 +18,7 @@ kd_place kd_place_at(float w, float u, float s2)
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
 
-/* The mass term of the metric, 2r - q^2; and this term divided by r^2. */
+/* The mass term of the metric: kd_mass is 2r - q^2, the next function this term divided by r^2. */
 float kd_mass(float r)
 {
     float mass = 2.0 * r;
@@ -43,8 +44,8 @@ float kd_late(float w)
     return part * kd_fall(w, cam.root);
 }
 
-/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass. moving: the coefficient in the Kerr metric, a^2 (E^2 - 1)
- * - L^2 - Q; a charge q of the hole subtracts q^2. */
+/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass. moving: the same coefficient in the Kerr metric, a^2 (E^2
+ * - 1) - L^2 - Q. A charge q of the hole subtracts q^2 from it. */
 float kd_body_quadratic(float moving)
 {
     float c2 = moving;
@@ -53,11 +54,11 @@ float kd_body_quadratic(float moving)
     return c2;
 }
 
-/* The circular orbit at w = 1/r. all: its 1/Omega. rest: P^2 r^(1/2)/s^2, so that 1/u^t is r^(3/4) sqrt(rest) / all
- * (orbit.glsl). one_minus_a: 1 - a in full precision.
+/* The circular orbit at w = 1/r. all: 1/Omega of the orbit. rest: P^2 r^(1/2)/s^2. From both, 1/u^t is r^(3/4)
+ * sqrt(rest) / all (orbit.glsl). one_minus_a: 1 - a in full precision.
  *
- * With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
- * left-hand side loses all digits. */
+ * With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. The right-hand side is used, because
+ * the left-hand side loses all digits near the ISCO of a hole that spins fast. */
 struct kd_circle { float all, rest; };
 kd_circle kd_circle_at(float w, float one_minus_a)
 {

@@ -5,9 +5,9 @@
 
 #include "ray/hole.glsl"
 
-/* A node holds quantities that are smooth from ray to ray. For a captured ray these are azimuths without the logarithm
- * that diverges at the horizon. The angles in the sky and the fate are replaced by a unit vector: x, y and z in the
- * planes of SKY_PHI, FATE and SKY_U. */
+/* A node holds quantities that are smooth from ray to ray. Converts a ray to a node, which holds only quantities that
+ * are smooth from ray to ray. The azimuths of a captured ray lose the logarithm that diverges at the horizon. A unit
+ * vector replaces the angles in the sky and the fate: x, y and z in the planes of SKY_PHI, FATE and SKY_U. */
 void kd_finish_node(uint at, uint crossings, bool captured, float curve)
 {
     lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);
@@ -24,8 +24,9 @@ void kd_finish_node(uint at, uint crossings, bool captured, float curve)
     }
 }
 
-/* Completes a ray or a node. An open node is not listed for the host. Its state says that it is open, and the rays of
- * its cells are traced singly. curve: for rays, a smooth function that vanishes where fates change. */
+/* Completes a ray or a node. An open ray is listed for the host. An open node is not listed: its state says that it is
+ * open, and the rays of its cells are traced singly. curve: value at this ray of a smooth function that vanishes where
+ * fates change. */
 void kd_finish_ray(bool open, uint at, uint crossings, bool captured, float curve)
 {
     const bool node = BY_PLACE && slice.stage != KD_STAGE_ALONE;

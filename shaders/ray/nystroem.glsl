@@ -1,6 +1,6 @@
 /* Runge-Kutta-Nystroem methods for y'' = f(y), for scalars and vectors. A step of length h goes from (y, v) to (y_out,
- * v_out). T is the type, and PULL(m, y) the function f. A kernel may define KD_NYSTROEM_ORDER before as a
- * specialisation constant:
+ * v_out). T is the type of y, and PULL(m, y) is the function f. Before it includes this file, a kernel may define
+ * KD_NYSTROEM_ORDER as a specialisation constant, which selects the method:
  *   6: J. Albrecht's method in five stages (1955, ZAMM 35, 100);
  *   4: E. J. Nystroem's method in three, the fewest possible (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett &
  *     Wanner 1993, II.14).

@@ -1,12 +1,12 @@
-/* A step of the ray with everything that is needed to judge a crossing: w, u, and the variation v of w with its slope
- * at the start:
+/* A step of the ray with all values that decide whether a crossing is certain: w, u, and the variation v, which is the
+ * derivative of w by its slope at the start:
  *   w'' = A w + 3K w^2 - 2D w^3,   u'' = A u - 2 e u^3,   v'' = (A + 6K w - 6D w^2) v,   v(0) = 0, v'(0) = 1. */
 #ifndef KD_PATH_STEP_GLSL
 #define KD_PATH_STEP_GLSL
 
 #include "ray/nystroem.glsl"
 
-struct kd_full { vec3 y, dy; }; /* (w, u, v) */
+struct kd_full { vec3 y, dy; }; /* y is (w, u, v), and dy its derivative */
 
 vec3 kd_full_pull(kd_geodesic m, vec3 y)
 {

@@ -1,13 +1,14 @@
 /* Determines which ray an invocation processes. Needs camera.glsl, the lens map as `lens`, and the specialisation
- * constants CRITICAL, GENERATOR and SHIFT. KD_BY_PLACE_BINDING: binding of the places, for kernels that trace.
+ * constants CRITICAL, GENERATOR and SHIFT. Kernels that trace define KD_BY_PLACE_BINDING, the binding of the list of
+ * places.
  *
- * CRITICAL = KD_RAYS_BY_PLACE: the rays of a stage of a list of places (ray/places.glsl). These are single rays of the
- * grid, or nodes. Nodes have a map of their own, with their states after its planes.
+ * If CRITICAL is KD_RAYS_BY_PLACE, invocations process the rays of a stage in a list of places (ray/places.glsl). These
+ * are single rays of the grid, or nodes. Nodes have a map of their own, in which their states follow the planes.
  *
- * CRITICAL = 0: rays of the picture's grid. A row of workgroups is a row of rays.
+ * If CRITICAL is 0, they process rays of the picture's grid. A row of workgroups is a row of rays.
  *
- * Other values of CRITICAL: this number of rays on each of the listed pixels, on a lattice or, if GENERATOR is 0, on a
- * square grid (src/render/view/critical_pixels.h). The list, x and y of each pixel, follows the planes in the lens
+ * Otherwise CRITICAL is the number of rays on each listed pixel. They are on a lattice or, if GENERATOR is 0, on a
+ * square grid (src/render/view/critical_pixels.h). The list of pixels, x and y of each, follows the planes in the lens
  * map. */
 #ifndef KD_PLACE_GLSL
 #define KD_PLACE_GLSL
@@ -22,15 +23,15 @@ layout(set = 0, binding = KD_BY_PLACE_BINDING) readonly buffer Places { uint wor
 const bool BY_PLACE = CRITICAL == KD_RAYS_BY_PLACE;
 #endif
 
-/* The pixel of this number in the list. */
+/* The pixel with the number `pixel` in the list. */
 uvec2 kd_listed_pixel(uint pixel)
 {
     uint at = slice.list + 2 * pixel;
     return uvec2(KD_MAP_AT(at), KD_MAP_AT(at + 1));
 }
 
-/* A ray on a pixel, by its number. The result is in steps of the camera. A pixel has CRITICAL steps, or SHIFT on a
- * square grid. */
+/* Place of a ray of a listed pixel, in steps of the camera. A side of a pixel has CRITICAL steps on a lattice, and
+ * SHIFT steps on a square grid. */
 uvec2 kd_critical_place(uvec2 pixel, uint ray)
 {
     if (GENERATOR == 0)
@@ -38,8 +39,8 @@ uvec2 kd_critical_place(uvec2 pixel, uint ray)
     return pixel * CRITICAL + uvec2(ray, (ray * GENERATOR + SHIFT) % max(CRITICAL, 1));
 }
 
-/* The ray of this invocation of a tracing kernel; false: there is none. at: the ray's index in a plane of the lens
- * map. */
+/* Finds the ray of this invocation of a tracing kernel; false if there is none. at: the ray's index in a plane of the
+ * lens map. */
 bool kd_this_ray(out uvec2 ray, out uint at)
 {
     uint x = gl_GlobalInvocationID.x;
@@ -49,7 +50,8 @@ bool kd_this_ray(out uvec2 ray, out uint at)
         uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + number;
         if (x >= kd_stage_count(slice.stage))
             return false;
-        ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y); /* may wrap round to a negative place */
+        /* the sum may wrap round to a negative place */
+        ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y);
         at = alone ? (ray.y - slice.band0) * cam.width + ray.x : number;
         return true;
     }

@@ -4,7 +4,8 @@
 
 #include "shared/lens.h"
 
-/* The first plane of a quantity, as kd_lens_plane of src/render/view/layout.h. Constant after specialisation. */
+/* Index of the first plane of a quantity, as kd_lens_plane of src/render/view/layout.h computes it. The value is
+ * constant after specialisation. */
 uint kd_plane(uint quantity)
 {
     uint before = QUANTITIES & (quantity - 1u);

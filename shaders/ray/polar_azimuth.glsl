@@ -6,10 +6,10 @@
  *   L dx / ((1 - u^2) sqrt(y)) =
  *     sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) + sqrt(c))).
  *
- * The first term contains the whole peak and is exact; between crossings it is pi. The second is small and smooth, even
- * and periodic in x. This term is computed as a cosine series through five points, whose terms fall as ((p - q)/(p +
- * q))^k. Rays with an impact parameter below about twice the spin would need many more terms. Such rays are few in a
- * picture, and their second term is integrated in time. */
+ * The first term contains the whole peak and is exact; between crossings it is pi. The second term is small and smooth,
+ * and is even and periodic in x. It is computed as a cosine series through five points, whose terms decrease as ((p -
+ * q)/(p + q))^k. Rays with an impact parameter below about twice the spin would need many more terms. Such rays are few
+ * in a picture, and their second term is integrated in time. */
 #ifndef KD_POLAR_AZIMUTH_GLSL
 #define KD_POLAR_AZIMUTH_GLSL
 
@@ -18,9 +18,9 @@
 struct kd_azimuth {
     float first;              /* psi from the observer to the first crossing */
     float half_;              /* psi from each crossing to the next */
-    float f0, f1, f2, f3, f4; /* the cosine series */
-    float b, root_c, side;    /* b, sqrt(c), the sign of L */
-    bool uneven;              /* the series is not accurate enough */
+    float f0, f1, f2, f3, f4; /* coefficients of the cosine series */
+    float b, root_c, side;    /* b; sqrt(c); sign of L */
+    bool uneven;              /* true if the series is not accurate enough */
 };
 
 /* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */
@@ -32,8 +32,8 @@ float kd_azimuth_rate(float y, float root_c)
 
 float kd_azimuth_pull(kd_geodesic m, float u) { return u * (m.a2 - 2.0 * m.energy2 * u * u); }
 
-/* The smooth part, L e/(sqrt(c) (sqrt(y) + sqrt(c))) dtau, from (u, du) on for at most half a period, by Boole's
- * rule. */
+/* Integral of the smooth part L e/(sqrt(c) (sqrt(y) + sqrt(c))) over a time of at most half a period, by Boole's rule.
+ * The motion starts at (u, du). */
 float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
 {
     const uint steps = 32;
@@ -49,11 +49,13 @@ float kd_azimuth_smooth(kd_geodesic m, float b, float u, float du, float time)
     return m.momentum * m.energy2 / c * sum * h * (2.0 / 45.0);
 }
 
-/* psi from a point of the path to the crossing of the plane less than a half period away, by the series. (cx, sx) is
- * proportional to (cos x, sin x) at the point; the angle of (tx, ty) is pi/2 - atan(tan x / sqrt(1 - U+)). */
+/* psi, by the series, from a point of the path to the nearest crossing of the plane in one direction, which is less
+ * than a half period away. (cx, sx) is proportional to (cos x, sin x) at the point; the angle of (tx, ty) is pi/2 -
+ * atan(tan x / sqrt(1 - U+)). */
 float kd_azimuth_part(kd_azimuth o, float cx, float sx, float tx, float ty)
 {
-    float n = 1.0 / max(cx * cx + sx * sx, 1e-37); /* an observer outside the plane is at least 1e-16 from it */
+    /* the lower bound is harmless, because an observer outside the plane is at least 1e-16 from it */
+    float n = 1.0 / max(cx * cx + sx * sx, 1e-37);
     float sin2 = 2.0 * sx * cx * n, cos2 = (cx * cx - sx * sx) * n, cos4 = 2.0 * cos2 * cos2 - 1.0;
     float wave =
         sin2 * (0.5 * o.f1 + cos2 * (0.5 * o.f2 + cos4 * 0.5 * o.f4) + o.f3 * (0.5 - (2.0 / 3.0) * sin2 * sin2));
@@ -68,7 +70,7 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     float cx = abs(u), sx = -(s * dp) / root;
     float c = polar.b + m.energy2, sc = sqrt(c);
     float eu = m.energy2 * (cx * cx + sx * sx); /* e U+ */
-    /* Nodes x = 0, pi/8, pi/4, 3 pi/8, pi/2; the ends have weight 1/2. */
+    /* The integrand at the nodes x = 0, pi/8, pi/4, 3 pi/8 and pi/2; both ends have the weight 1/2. */
     float j0 = 0.5 * kd_azimuth_rate(polar.b + eu, sc), j4 = 0.5 * kd_azimuth_rate(polar.b, sc);
     float j1 = kd_azimuth_rate(polar.b + 0.853553391 * eu, sc);
     float j2 = kd_azimuth_rate(polar.b + 0.5 * eu, sc);
@@ -82,8 +84,10 @@ kd_azimuth kd_azimuth_of(kd_geodesic m, kd_ray ray, kd_polar polar, float u, flo
     o.b = polar.b;
     o.root_c = sc;
     o.side = ray.l < 0.0 ? -1.0 : 1.0;
-    o.uneven = polar.b < 0.85 * (polar.b + eu); /* (p - q)/(p + q) above 0.04, where the fifth term is above 1e-7 */
-    /* tan x / sqrt(1 - U+) at the observer, without the sine of the polar angle, which cancels: exact on the axis. */
+    /* true if (p - q)/(p + q) is above 0.04, where the fifth term is above 1e-7 */
+    o.uneven = polar.b < 0.85 * (polar.b + eu);
+    /* (tx, ty) gives tan x / sqrt(1 - U+) at the observer. The sine of the polar angle cancels and is left out, so this
+     * is exact on the axis. */
     float tx = -dp / root, ty = cx * abs(ray.l) / sc;
     o.first = kd_azimuth_part(o, cx, sx, tx, ty);
     o.half_ = KD_PI * (o.side + o.f0);

@@ -1,4 +1,4 @@
-/* Radial motion w'' = A w + 3K w^2 - 2D w^3 by steps, and the azimuth by which the hole drags a ray. */
+/* Radial motion w'' = A w + 3K w^2 - 2D w^3, integrated by steps, and the azimuth by which the hole drags a ray. */
 #ifndef KD_RADIAL_STEP_GLSL
 #define KD_RADIAL_STEP_GLSL
 
@@ -17,14 +17,14 @@ kd_state kd_radial_step(kd_geodesic m, kd_state y, float h)
     return o;
 }
 
-/* W + |w'| of a ray that does not turn, W = E (1 + a^2 w^2) - a L w^2; the lower bounds are for values inside the
- * horizon, which are meaningless. */
+/* W + |w'| of a ray that does not turn, with W = E (1 + a^2 w^2) - a L w^2. The lower bounds matter only inside the
+ * horizon, where the values have no meaning. */
 float kd_one_way(kd_geodesic m, kd_state y, float e, float a, float way)
 {
     return max(e + a * (a * e - m.momentum) * y.w * y.w + max(way * y.dw, 0.0), 1e-12);
 }
 
-/* w'^2 = W^2 - D K w^2, which keeps its precision next to the horizon. */
+/* w'^2 from W^2 - D K w^2, a form that keeps its precision next to the horizon. */
 float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
 {
     precise float w2 = w * w, all = e + a * (a * e - m.momentum) * w2,
@@ -32,13 +32,13 @@ float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
     return square;
 }
 
-/* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + (a^2 + q^2) w^2.
+/* Rate chi' of the azimuth chi by which the hole drags a ray: chi' = a (W/D - E), with D = 1 - 2w + (a^2 + q^2) w^2.
  *
  * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
- * Kerr-Schild coordinates is regular. This azimuth leaves out a w'/D, whose integral is elementary and is added by
- * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same
- * holds with the other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight
- * in, -1 for one that goes straight out, else 0. */
+ * Kerr-Schild coordinates is regular. Its rate lacks the term a w'/D, whose integral is elementary; kd_drag_fall adds
+ * that integral. Because w'^2 = W^2 - D K w^2, the rate is a (K w^2/(W + w') - E), which has neither a pole nor a
+ * difference of large numbers. The same holds with the other sign of w' for a ray that comes from next to the horizon.
+ * way: 1 for a ray that goes straight in, -1 for a ray that goes straight out, otherwise 0. */
 float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
@@ -48,9 +48,8 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
 }
 
 /* kd_drag for a ray that may come from inside the horizon or return to it. The function uses ingoing coordinates (way =
- * -1) while the ray goes outwards, and outgoing ones (1) while the ray returns. Ingoing coordinates divide by D only
- * while the ray returns, and outgoing ones only while it goes outwards. Both azimuths are smooth where the ray turns,
- * because w'^2 = W^2 - D K w^2. */
+ * -1) while the ray goes outwards, and outgoing ones (way = 1) while the ray returns. In this choice neither divides by
+ * D. Both azimuths are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -59,8 +58,8 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
 }
 
 /* True if the light that an observer at w receives comes from outside. Only an observer on or inside the horizon
- * receives other light. Such light crosses the horizon with W < 0, from the other side of the hole's past, and is dark.
- * W has no meaning at a horizon that a ray does not cross. */
+ * receives other light. Such light crosses the horizon with W < 0, comes from the other side of the hole's past, and is
+ * taken as dark. W has no meaning at a horizon that a ray does not cross. */
 bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 {
     return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
@@ -73,9 +72,10 @@ float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); 
  * passes that place if and only if R > 0 at the place. The form R = W^2 - D K w^2 keeps its precision next to the
  * horizon too. */
 struct kd_turning_point {
-    float w, r;  /* w: the place, or the horizon if the place is inside the horizon; r: R at w */
+    /* w of the turning point, or of the horizon if the turning point is inside the horizon; R at that w */
+    float w, r;
     float noise; /* bound of the rounding error of r */
-    bool open;   /* the place is clearly inside the horizon, so that the ray has no turning point */
+    bool open;   /* true if the turning point is clearly inside the horizon, so that the ray does not turn */
 };
 
 kd_turning_point kd_turning_point_of(kd_geodesic m, kd_ray ray, float a, float horizon, float root, kd_rounding off)
@@ -102,8 +102,8 @@ float kd_speed_noise(kd_geodesic m, kd_state y, kd_rounding off)
 }
 
 /* Computes the turning point for an observer next to the photon orbits. It starts from the observer's place, where R =
- * w'^2. Between the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance,
- * since R' vanishes at the turning point. If w' is close to 0, its square is more precise than R. */
+ * w'^2. R' vanishes at the turning point, so between the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) -
+ * x^2 D), where x is their distance. This form is used because w'^2 is more precise than R where w' is close to 0. */
 kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
@@ -123,22 +123,22 @@ float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
     return dw * (abs(y.dw) + dw) + off.unit * abs(y.w * kd_acceleration(m, y.w));
 }
 
-/* True if a ray falls into the horizon from its present state, without turning. */
+/* True if a ray in this state falls into the horizon without turning. */
 bool kd_falls_in(kd_turning_point b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
-/* The value of `way` for kd_drag from this state on. */
+/* The value of `way` that kd_drag needs from this state on. */
 float kd_direction_of_motion(kd_turning_point b, kd_state y)
 {
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
-/* True if the ray escapes. */
+/* True if a ray in this state escapes. */
 bool kd_escapes(kd_turning_point b, kd_state y)
 {
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* True if the ray's end is certain in spite of rounding. start: kd_start_noise at y. */
+/* True if the ray's end is certain in spite of rounding. start: the value of kd_start_noise for the state y. */
 bool kd_is_decided(kd_turning_point b, kd_state y, float start)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;

@@ -1,18 +1,20 @@
 /* The rim of the shadow: rays next to the critical curve (src/render/view/rim.h) on several grids (rim_grid.h). Images
- * of stars of all orders are found between these rays. Binding 7. Needs sky_map.glsl and camera.glsl, and the
- * specialisation constant RIM. RIM 0: there is no rim. 1: the rays are the picture's, and images next to the curve are
- * left to the rim. 2: the rays are those of a grid of the rim. */
+ * of stars of all orders are found between these rays. The rim has binding 7. This file needs sky_map.glsl, camera.glsl
+ * and the specialisation constant RIM. If RIM is 0, there is no rim. If it is 1, the rays are the picture's, and images
+ * next to the curve are left to the rim. If it is 2, the rays are those of a grid of the rim. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
 layout(set = 0, binding = 7) readonly buffer Rim
 {
     float rim[];
-}; /* distance of the curve from the middle, by angle; from push.rim on, the table of the current grid */
+    /* first the distance of the curve from the middle, by angle; from index push.rim on, the table of the current grid
+     */
+};
 
 const bool AT_RIM = RIM == 2u;
 
-/* Direction of the camera at a place of the picture; at infinity alpha and beta. */
+/* Direction of the camera's ray at a place of the picture. At infinity its components are alpha and beta. */
 vec3 kd_camera_look(vec2 place)
 {
     float x = place.x - cam.middle_x, y = cam.middle_y - place.y, ahead = kd_camera_ahead(x, y);
@@ -20,8 +22,8 @@ vec3 kd_camera_look(vec2 place)
            y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* Where the camera sees a direction: the place in the picture, and the squared steps of the picture per unit of area
- * about `ahead` on the direction's plane. steps is 0 behind a pinhole. */
+/* Where the camera sees a direction. place: place in the picture. steps: squared steps of the picture per unit of area
+ * on the rim's plane, which is perpendicular to `ahead`; 0 for a direction behind a pinhole. */
 struct kd_seen {
     vec2 place;
     float steps;
@@ -76,8 +78,8 @@ float kd_rim_share(vec2 place)
     return clamp((push.none - off) / (push.none - push.full), 0.0, 1.0);
 }
 
-/* The quartic through five values at -2 ... 2, without its constant and its term of fourth order: coefficients of x,
- * x^2, x^3. */
+/* The quartic through five values at -2 ... 2: coefficients of x, x^2 and x^3. The constant and the term of fourth
+ * order are not needed. */
 struct kd_quartic { vec2 x, xx, xxx; };
 
 kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
@@ -87,15 +89,15 @@ kd_quartic kd_quartic_of(vec2 p2, vec2 p1, vec2 o, vec2 n1, vec2 n2)
                       (far - 2.0 * near) * (1.0 / 12.0));
 }
 
-/* A place p in the cell (x, y) of a grid: its place on the plane, its direction, and the area of the cell on the
- * plane. */
+/* A point of a grid, at the place p in the cell (x, y). place: its place on the rim's plane. d: its direction. area:
+ * area of the cell on the plane. */
 struct kd_rim_cell {
     vec2 place;
     vec3 d;
     float area;
 };
 
-/* For a column: the curve's point, and its derivative. */
+/* For a column of the grid: the point of the curve, and the curve's derivative there. */
 struct kd_rim_column { vec2 at, by; };
 
 kd_rim_column kd_rim_curve(uint k)
@@ -104,7 +106,7 @@ kd_rim_column kd_rim_curve(uint k)
     return kd_rim_column(vec2(rim[i], rim[i + 1u]), vec2(rim[i + 2u], rim[i + 3u]));
 }
 
-/* Between columns the derivative of the curve is interpolated as a parabola. */
+/* The point at p in the cell (x, y). Between columns the derivative of the curve is interpolated as a parabola. */
 kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
 {
     kd_rim_column own = kd_rim_curve(x);
@@ -120,8 +122,8 @@ kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
     return o;
 }
 
-/* The current grid's share of the light of an image at this column and row. If `within` is above 0: an upper bound of
- * the share of all images whose distance from the place is at most `within`. */
+/* The share that the current grid has of the light of an image. at: column and row of the image. If `within` is above
+ * 0, the result is an upper bound of the shares of all images at most that far from the place. */
 float kd_rim_part(vec2 at, float within)
 {
     vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])),

@@ -1,6 +1,7 @@
 /* Spreads the light of a star's image over 3 x 3 pixels, as a quadratic B-spline with a standard deviation of half a
  * pixel. The weights add up to 1, and their centre is the image's place. Light is summed in 64-bit fixed point, so that
- * the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
+ * the sum does not depend on the order. The buffer has the binding KD_STAR_LIGHT_BINDING. This file needs around.glsl.
+ */
 #ifndef KD_STAR_LIGHT_GLSL
 #define KD_STAR_LIGHT_GLSL
 
@@ -16,15 +17,16 @@ void kd_star_add(uint o, float light)
         atomicAdd(point_light[o + 1u], high);
 }
 
-/* Weights of the pixels before, at and after a place that is at distance d from the centre of the middle pixel. */
+/* Weights of three pixels in a line, for a place at the distance d from the centre of the middle one. */
 vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - d * d, 0.5 * (0.5 + d) * (0.5 + d)); }
 
-/* Solid angle of a pixel of a picture of all directions by its row, relative to the equator. */
+/* Solid angle of a pixel in a row, relative to a pixel at the equator, for a picture of all directions. */
 float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
 
 /* Spreads the light of an image. place: in pixels of the picture. light: the mean radiance of a pixel centred there.
- * Near the poles of a picture of all directions adjacent rows have different solid angles. The sum of light times solid
- * angle over all pixels is then the same as if a pixel centred at the place had all the light. */
+ * Near the poles of a picture of all directions adjacent rows have different solid angles. The weights are corrected
+ * for this: the sum of light times solid angle over all pixels is the same as if a pixel centred at the place had all
+ * the light. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);

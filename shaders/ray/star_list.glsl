@@ -1,15 +1,16 @@
-/* Buffers shared by the kernels that search stars: the list of stars in cells, and the kernels' output. The output is
- * pairs of a ray and a star, and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
+/* Buffers shared by the kernels that search stars. They hold the list of stars in cells, and the kernels' output: pairs
+ * of a ray and a star, and rays still to be searched. The bindings are 3 to 6. This file needs sky_map.glsl. */
 #ifndef KD_STAR_LIST_GLSL
 #define KD_STAR_LIST_GLSL
 
 #include "shared/faces.h"
-/* word 0: the number of pairs; from word 2 on: the pairs, each a ray and a star */
+/* word 0: number of pairs; from word 2 on: two words for each pair, the ray and the star */
 layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; };
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
-layout(set = 0, binding = 5) uniform utextureBuffer cells; /* the table of fine cells, then that of coarse ones */
+/* first stars of the fine cells, then of the coarse cells */
+layout(set = 0, binding = 5) uniform utextureBuffer cells;
 uint cell_at(uint of) { return texelFetch(cells, int(of)).r; }
 #else
 layout(set = 0, binding = 4) readonly buffer Stars { vec4 stars[]; };
@@ -20,9 +21,9 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* the number of tiles and the number of rays; then the tiles, with room for push.tiles of them; then the rays */
+}; /* number of tiles; number of rays; then the list of tiles, with room for push.tiles; then the list of rays */
 
-/* The cells of a face that lie in a rectangle. */
+/* The cells of a face of the cube that lie in a rectangle. */
 struct kd_cells {
     int first, side;
     ivec2 low, high;
@@ -36,7 +37,8 @@ kd_cells kd_cells_of(uint face, vec2 low, vec2 high)
     return kd_cells(first, side, kd_face_cell(low.x, low.y, float(side)), kd_face_cell(high.x, high.y, float(side)));
 }
 
-/* Iterates over the stars of such cells: k is the next star, in a cell that ends before `end`. */
+/* Position in an iteration over the stars of a rectangle of cells. k: the next star. end: end of the stars of the
+ * current cell. */
 struct kd_star_walk {
     ivec2 cell;
     uint k, end;

@@ -1,6 +1,6 @@
-/* The list of emitters, which send light along a ray, absorb it or change it. Each has a line here, in the order of
- * composition at one place. An emitter's number, added to KD_SPEC_TRAITS, is the id of its specialisation constant
- * TRAITS_name.
+/* The list of emitters, which send light along a ray, absorb it or change it. Each emitter has a line here, in the
+ * order of composition at one place. A line is of one of these kinds: An emitter's number, added to KD_SPEC_TRAITS, is
+ * the id of its specialisation constant TRAITS_name.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
  *   HELPER        no light of its own: other emitters call its functions, so that shared values are computed once
@@ -56,44 +56,45 @@
 
 /* The blocks of numbers of all emitters and of the frame. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
-/* All tables in sequence. The place of use defines KD_T(table, rows), which expands each. */
+/* Expands KD_T(table, rows) for each table of all emitters, in sequence. The place of use defines KD_T. */
 #define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
 #define KD_EMIT_TABLES \
     KD_TABLES_colour(KD_T) \
         KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
-/* All buffers. The place of use defines KD_B(number, type, member), which expands each. The buffers are bindings of the
- * kernels of light, from KD_OWN_BINDING on. */
+/* Expands KD_B(number, type, member) for each buffer of all emitters. The place of use defines KD_B. The buffers are
+ * bindings of the kernels of light, from KD_OWN_BINDING on. */
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS \
     KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
-/* Binding at which layers.comp reads the light that the march has stored. It takes the place of the binding for points
- * of light: the stored light includes the points, and a device may allow only 8 storage buffers for a kernel. */
+/* Binding at which layers.comp reads the light that the march has stored. It is the same as the binding for points of
+ * light, because the stored light already includes the points, and because a device may allow only 8 storage buffers
+ * for a kernel. */
 #define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
-/* All passes that belong to emitters. The place of use defines KD_P(name, ID, word, guess), which expands each
- * (render/plan/pass.h). */
+/* Expands KD_P(name, ID, word, guess) for each pass that belongs to an emitter (render/plan/pass.h). The place of use
+ * defines KD_P. */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
-/* Bits that every emitter's word has. PRESENT: the scene has the emitter. SEPARATE_PHOTOMETRY: its luminance is also
- * stored separately, so that its flux and centroid can be measured. Only one emitter can have this bit. */
+/* Bits that every emitter's word has. PRESENT: the scene has the emitter. SEPARATE_PHOTOMETRY: the emitter's luminance
+ * is also stored separately, so that its flux and centroid can be measured. Only one emitter can have this bit. */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \
     16u /* slow light: moving emitters are shown as they were when their light left them; volumes then get the light \
          * delay */
 #define KD_TRAIT_AZIMUTH \
-    0x20000000u /* for volumes: the emitter needs the azimuth of a point, and the footprint of a ray there */
+    0x20000000u /* for volumes: the emitter needs the azimuth of a point, and the ray's footprint at that point */
 #define KD_TRAIT_POINTS \
     0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels: comp/star_images.comp \
                  */
 #define KD_TRAIT_TEXELS \
     0x10000000u /* the device reads the emitter's buffer of quads as texels; kd_emit_as_texels sets this bit */
-#define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light wherever a ray ends */
+#define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light in all directions of the sky, wherever a ray ends */
 
 #endif
 #include "emit/frame.glsl"
 #include "emit/colour.glsl"
 #include "emit/orbit.glsl"
-#include "emitter_files.h" /* emit/disk.glsl and so on, in the order of the list */
+#include "emitter_files.h" /* includes emit/disk.glsl and the files of the other emitters, in the order of the list */
 #include "emit/cosine.glsl"

@@ -1,17 +1,18 @@
-/* Division of the sphere into cells: the six faces of a cube, each with a grid. A direction belongs to the face of its
- * largest component. Its place there is (p, q) in [-1, 1], the other two components divided by the largest. Each face
- * extends beyond its edges to KD_FACE_EDGE, so that the neighbourhood of a direction is on the direction's own face.
- * A star is therefore on up to three faces. */
+/* Division of the sphere into cells. The sphere is projected on the six faces of a cube, and each face has a grid of
+ * cells. A direction belongs to the face of its largest component. Its place on the face is (p, q) in [-1, 1]: its
+ * other two components divided by the largest. The grid of a face extends beyond the face's edges to KD_FACE_EDGE, so
+ * that the neighbourhood of a direction is always on one face. A star is therefore on up to three faces. */
 #ifndef KD_FACES_GLSL
 #define KD_FACES_GLSL
 
 #define KD_FACE_EDGE 1.5
-#define KD_FACE_FINE 192 /* fine cells along a side, edges included; all stars are sorted into fine cells */
-/* coarse cells along a side; all stars are also sorted into these, for wide searches and for bright stars only */
+#define KD_FACE_FINE 192 /* number of fine cells along a side, edges included; all stars are sorted into fine cells */
+/* number of coarse cells along a side. All stars are sorted into coarse cells as well, for wide searches of bright
+ * stars */
 #define KD_FACE_COARSE 32
-#define KD_FACE_FAR 0.06 /* distance on a face from which a search counts as wide */
+#define KD_FACE_FAR 0.06 /* a search that extends this far on a face, or further, counts as wide */
 #define KD_FACES 6
-/* words of a table: the start of each cell, and two words with the end of the last cell */
+/* number of words of a table: the start of each cell, and two words with the end of the last cell */
 #define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2)
 
 #ifdef VULKAN
@@ -39,7 +40,7 @@ kd_face kd_face_of(vec3 n)
                        unit);
 }
 
-/* The place of a direction on a face whose normal makes an acute angle with it. */
+/* The place (p, q) of a direction on a face. The face's normal must make an acute angle with the direction. */
 vec2 kd_face_place(uint face, vec3 n)
 {
     float unit = 1.0 / abs(face < 2u ? n.x : face < 4u ? n.y : n.z);

@@ -1,6 +1,6 @@
-/* The layers of a frame besides "rgb". A layer is a map with one number for each pixel, and has one line here. The
- * number in its line is the place of the layer's name among the words of image.layers (src/scene/fields.h), where "rgb"
- * is 0. src/render/plan/layer_kinds.c defines the unit and the colours of each layer.
+/* The layers of a frame besides "rgb". A layer is a map with one number for each pixel. Each layer has one line here.
+ * `number` is the index of the layer's name among the words of image.layers (src/scene/fields.h), where "rgb" is 0.
+ * src/render/plan/layer_kinds.c defines the unit and the colours of each layer.
  *
  *   LIGHT(number, name, needs, value)      of the mean light of all rays of a pixel (light/layers.comp). value: GLSL
  *                                          of its Stokes I, Q, U and V, the vec4 `light`

@@ -1,6 +1,6 @@
 /* The quantities of a lens map, in the order of their planes. The quantities of a crossing come first, and have a plane
- * for each image order. The quantities of a ray follow, and have one plane. A map holds the quantities of a set of
- * bits. C and GLSL expand both lists.
+ * for each image order. The quantities of a ray follow, and have one plane. A set of bits says which quantities a map
+ * holds. C and GLSL expand both lists.
  *
  *   W        1/r of the crossing; 0: there is none; negative: the ray was given up on the way to it
  *   PHI      azimuth of the crossing, source minus observer, radians

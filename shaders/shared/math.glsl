@@ -1,12 +1,12 @@
 /* Elementary functions with known errors in both precisions. Vulkan allows 4096 ulp for its atan and 2^-11 for its
- * sine, and has neither in double. KD_DOUBLE: accurate to 1e-16 instead of 1e-7. */
+ * sine, and has neither in double. With KD_DOUBLE the functions are accurate to 1e-16 instead of 1e-7. */
 #ifndef KD_MATH_GLSL
 #define KD_MATH_GLSL
 
 #define KD_PI 3.14159265358979323846
 
-/* True if x is finite, by the bits of the exponent. A comparison would not be reliable. A compiler that need not
- * preserve NaN (Vulkan 1.2, shaderSignedZeroInfNanPreserve) may treat any comparison with NaN as true. */
+/* True if x is finite. The function tests the bits of the exponent, because a comparison is not reliable: a compiler
+ * that need not preserve NaN (Vulkan 1.2, shaderSignedZeroInfNanPreserve) may treat any comparison with NaN as true. */
 bool kd_is_finite(float x)
 {
 #ifdef KD_DOUBLE
@@ -16,7 +16,7 @@ bool kd_is_finite(float x)
 #endif
 }
 
-/* Arc tangent for |x| <= tan(pi/8). Double: Moshier's rational function (Cephes, 1984). */
+/* Arc tangent for |x| <= tan(pi/8). In double it is Moshier's rational function (Cephes, 1984). */
 float kd_atan_small(float x)
 {
     float z = x * x;
@@ -35,7 +35,7 @@ float kd_atan_small(float x)
 #endif
 }
 
-/* Angle of (x, y) in [0, pi] for y >= 0 and x of any sign. */
+/* Angle of the point (x, y), in [0, pi], for y >= 0 and x of any sign. */
 float kd_angle_upper(float x, float y)
 {
     float ax = abs(x), mx = max(ax, y), mn = min(ax, y);
@@ -46,23 +46,24 @@ float kd_angle_upper(float x, float y)
     return x < 0.0 ? KD_PI - t : t;
 }
 
-/* Reduces an angle to half a turn either way. */
+/* Reduces an angle to [-pi, pi) by whole turns. */
 float kd_turned(float d) { return d - 2.0 * KD_PI * floor(d / (2.0 * KD_PI) + 0.5); }
 
 float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
 
-/* A power of ten that scales a number > 0 so that its square is representable in 32 bits. Squares of numbers below
- * 1e-19 or above 1e19 are not. */
+/* A power of ten that brings a number x > 0 into the range in which its square is a normal 32-bit number. Squares of
+ * numbers below 1e-19 or above 1e19 are outside that range. */
 float kd_squarable(float x) { return x < 1e-10 ? 1e25 : x > 1e10 ? 1e-20 : 1.0; }
 
-/* Length of v divided by a number > 0, however small or large both are. */
+/* Length of v divided by `whole` > 0. Neither very small nor very large numbers overflow or underflow. */
 float kd_part_of(vec3 v, float whole)
 {
     float by = kd_squarable(whole);
     return length(v * by) / (whole * by);
 }
 
-/* Cosine and sine of a number of quarter turns, to 1e-7: Taylor's series within half a quarter turn. */
+/* Cosine and sine of a number of quarter turns, accurate to 1e-7. Taylor's series are used within half a quarter turn.
+ */
 vec2 kd_quarter_turns(float turns)
 {
     float whole = floor(turns + 0.5), f = (turns - whole) * (0.5 * KD_PI), z = f * f;
@@ -82,7 +83,8 @@ float kd_log(float x)
         m *= 2.0;
         e--;
     }
-    /* log(m) = 2 atanh((m - 1)/(m + 1)): the argument is below 0.172, and the first term left out is below 1e-17. */
+    /* log(m) = 2 atanh((m - 1)/(m + 1)) by its series. The argument is below 0.172, and the first omitted term is below
+     * 1e-17. */
     float s = (m - 1.0) / (m + 1.0), z = s * s, sum = 0.0;
     for (int k = 10; k >= 0; k--)
         sum = sum * z + 1.0 / float(2 * k + 1);
@@ -94,7 +96,7 @@ float kd_log(float x)
 
 struct kd_phasor { float c, s; }; /* cosine and sine of an angle */
 
-/* Cosine and sine by their series on [-pi/4, pi/4]. */
+/* Cosine and sine of an angle, by their series on [-pi/4, pi/4]. */
 kd_phasor kd_cos_sin(float angle)
 {
     float n = floor(angle * (2.0 / KD_PI) + 0.5), x = angle - n * (KD_PI * 0.5), z = x * x;

@@ -6,7 +6,7 @@
 #define HAS(name) "{\"required\":[\"" name "\"]}"
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
 #define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
-/* A member that does not belong to the emissivity with which it is given. */
+/* Schema of a member that must be absent, because it does not belong to the given emissivity. */
 #define NOT_OF(name, words) \
     "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
 #define CORONAE "\"ring\",\"disk\",\"slab\""
@@ -14,7 +14,7 @@
 #define OF_NO_OTHER_THAN(name, words) \
     "{\"required\":[\"" name \
     "\"],\"not\":{\"required\":[\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}}"
-/* Pictures need a scene, and a disk does not take one. */
+/* Schema of a request with a scene: fields of pictures need a scene, and fields of a disk exclude one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_RETURNING HAS("returning") "," HAS("polarization")
 #define OF_A_HOLE_(x, name, ...) "," HAS(#name)

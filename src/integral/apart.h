@@ -5,8 +5,8 @@
 
 #include "integral/request.h"
 
-/* The value of "not" in the schema of a request. The spectra of a disk and of a volume share one schema
- * (KD_INTEGRAL_SPECTRUM). */
+/* The schema that a request must not match: the value of "not" in the schema of a request. The spectra of a disk and of
+ * a volume share one request schema (KD_INTEGRAL_SPECTRUM). */
 const char *kd_integral_apart(enum kd_integral what);
 
 #endif

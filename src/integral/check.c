@@ -18,8 +18,8 @@ bool kd_integral_given(const struct kd_integral_request *request, const char *na
     return f && request->seen[at / 64] & UINT64_C(1) << at % 64;
 }
 
-/* Very close to edge-on the image of the disk has only cells and no table (physics/disk/disk_columns.h). These
- * integrals need the table. */
+/* Refuses inclinations very close to edge-on. The image of such a disk has only cells and no table
+ * (physics/disk/disk_columns.h), and these integrals need the table. */
 static enum kd_status check_edge_on(const struct kd_integral_request *r, struct kd_error *error)
 {
     const bool echo = r->what == KD_INTEGRAL_IMPULSE || r->what == KD_INTEGRAL_LAGS,
@@ -86,7 +86,7 @@ enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const
 #define BIT(word) (1u << KD_LINE_##word)
 #define OFF_AXIS (BIT(RING) | BIT(DISK) | BIT(SLAB))
 
-/* Refuses a field of an emissivity other than the request's, because the field would have no effect. */
+/* Refuses a field that belongs to another emissivity than the request's, because the field would have no effect. */
 static enum kd_status check_belongs(const struct kd_integral_request *r, struct kd_error *error)
 {
     static const struct {
@@ -123,7 +123,8 @@ struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *r)
                                       .motion = r->motion };
 }
 
-/* Checks that a ring of the corona can exist: it is far enough from the hole, and its motion is slower than light. */
+/* Checks that a ring of the corona can exist. It must be far enough from the hole, and its motion must be slower than
+ * light. */
 static enum kd_status check_ring(const struct kd_integral_request *r, double radius, double height,
                                  struct kd_error *error)
 {
@@ -210,8 +211,8 @@ static enum kd_status check_edges(struct kd_integral_request *r, struct kd_error
     return kd_integral_check_growth(&r->edges, "edges", error);
 }
 
-/* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to
- * 1. */
+/* Fills a list with n numbers in geometric progression. If `first` is 0, the numbers are the midpoints of n equal parts
+ * of the range from 0 to 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error)
 {
@@ -225,7 +226,7 @@ enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *
     return status;
 }
 
-/* Refuses a list if fields that would generate the list are given as well. */
+/* Refuses a list together with fields that would generate the same list. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error)
 {
@@ -277,7 +278,7 @@ done:
     return status;
 }
 
-/* Requires a list, or a range of which both ends are given. */
+/* Requires either a list of frequencies or both ends of a range. */
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *r, uint32_t most, struct kd_error *error)
 {
     static const char *const even[] = { "frequency_min_hz", "frequency_max_hz", "frequencies" };

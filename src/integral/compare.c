@@ -48,7 +48,7 @@ void kd_integral_drop_observation(struct kd_integral_request *r)
     r->comparison = NULL, r->observation = NULL, r->file = NULL, r->file_size = 0;
 }
 
-/* Reads the observation by the name or the hash of its asset. */
+/* Reads the observation from the asset that has the given name or hash. */
 enum kd_status kd_integral_read_observation(struct kd_integral_request *r, const cJSON *root, struct kd_error *error)
 {
     const cJSON *given =
@@ -168,8 +168,8 @@ void kd_integral_compare_lay_out(struct kd_integral_answer *answer)
     answer->solved = KD_ALIGNMENT_NONE;
 }
 
-/* Factor that scales the model; NaN if it cannot be determined. If the light has no frequency, the map that was
- * transformed had a flux of 1. */
+/* Factor that scales the model; NaN if it cannot be determined. For light without a frequency, the map was transformed
+ * as if its flux were 1. */
 static double scale_of(const struct kd_integral_answer *answer, const double (*model)[2])
 {
     const struct kd_integral_request *r = answer->request;
@@ -185,7 +185,7 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     const struct kd_integral_request *r = answer->request;
     struct kd_comparison *c = r->comparison;
     const double found = scale_of(answer, (const double (*)[2])model),
-                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale */
+                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale, so it is 1 */
     for (size_t i = 0; i < c->n; i++)
         model[i][0] *= scale, model[i][1] *= scale;
     kd_comparison_judge(c, (const double (*)[2])model, answer->chi2[finer]);
@@ -207,7 +207,7 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     answer->values[NORTH] = answer->solved.north * KD_UAS_PER_RADIAN;
 }
 
-/* Lists the solved quantities. The flux is solved for if no other value determines it. */
+/* Lists the quantities that are solved for. The flux is one of them if nothing else determines it. */
 static void write_solved(struct kd_json *json, const struct kd_integral_answer *answer)
 {
     static const struct {
@@ -248,7 +248,7 @@ void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2
     const size_t row = answer->set->row;
     double *const *columns = answer->columns, chi2[KD_PRODUCTS], total = 0;
     const double found = model ? scale_of(answer, (const double (*)[2])model) : NAN,
-                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale */
+                 scale = isfinite(found) ? found : 1; /* closures do not determine the scale, so it is 1 */
     for (size_t i = 0; model && i < c->n; i++)
         model[i][0] *= scale, model[i][1] *= scale;
     if (model)

@@ -396,8 +396,8 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
                                      .energy = r->energy };
 }
 
-/* cos i below which rays from a source to the observer are not found, because they pass the plane of the observer.
- * From here to edge-on the flux changes by 3e-5. */
+/* Least cos i at which rays from a source to the observer are searched. Below it they are not found, because they pass
+ * the plane of the observer. From here to edge-on the flux changes by 3e-5. */
 #define FLATTEST 1.7e-4
 
 /* The light that reaches the observer from the source itself; NaN if there is no source. */
@@ -432,7 +432,7 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
                    : kd_error_set(error, KD_ENOMEM, "out of memory for %u bins", r->bins);
     free(edges);
     for (size_t i = 0; !status && i < r->bins; i++)
-        /* guards against rounding */
+        /* the minimum guards against rounding */
         c[0][i] = r->edges.at[i], c[1][i] = r->edges.at[i + 1], c[3][i] = sum = fmin(sum + c[2][i], 1);
     struct kd_corona_continuum direct;
     if (!status)
@@ -507,8 +507,8 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
-/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here a
- * second time. The largest relative difference between the two results is added to the error. */
+/* Adds scattered light to the fluxes, and fills the columns of polarisation. This computes the direct light a second
+ * time; the largest relative difference from the first result is added to the error. */
 static enum kd_status add_stokes(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                  const struct kd_disk_spectrum_params *params, struct kd_integral_answer *answer,
                                  struct kd_error *error)
@@ -544,7 +544,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
                                               r->distance_pc, r->mdot_edd, r->colour_correction,
                                               r->limb,        NULL };
-    struct kd_returning *table = NULL; /* scattered light has only one check: the balance of its energies */
+    struct kd_returning *table = NULL; /* table of the scattered light, whose only check is the balance of energies */
     const struct kd_hole *const hole = kd_integral_hole(r);
     const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
@@ -597,7 +597,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
         answer->told[answer->n_told++] = of_hole->text;
 done:
     free(image);
-    if (kd_pause()) /* the result counts as a failure: after a pause that returned true it is incomplete */
+    if (kd_pause()) /* counts as a failure: if kd_pause returned true, the result is incomplete */
         status = kd_error_set(error, KD_ECANCELLED, "the computation of the %s was cancelled",
                               kd_integral_name(request->what));
     if (status)

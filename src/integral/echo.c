@@ -8,10 +8,10 @@
 #include <stdlib.h>
 
 enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, DIRECT_TIME, UNIT, AFTER };
-enum { INSIDE = AFTER, MEAN, ERROR }; /* values that only an impulse response has */
-enum { WORST = AFTER };               /* values that only lags have */
+enum { INSIDE = AFTER, MEAN, ERROR }; /* index of each value that only an impulse response has */
+enum { WORST = AFTER };               /* index of each value that only lags have */
 
-/* The source exists: the request has been checked. */
+/* Parameters of the echo. The source exists, because the request has been checked. */
 static struct kd_echo_params params_of(const struct kd_integral_request *r)
 {
     struct kd_echo_params params = { r->inner, r->outer, r->photon_index, r->limb };
@@ -33,7 +33,7 @@ static void fill_values(const struct kd_integral_request *r, const struct kd_dis
     values[UNIT] = second_of(r);
 }
 
-/* The edges of the bins divided by rest_energy, in an array with room for `more` further edges. */
+/* Edges of the bins divided by rest_energy. The array has room for `more` further edges. */
 static double *edges_of(const struct kd_integral_request *r, size_t more)
 {
     double *edges = malloc((r->edges.n + more) * sizeof *edges);
@@ -82,7 +82,7 @@ static int ascending(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* The edges of the bins and of the reference, each once, ascending. Returns their number. */
+/* Lists the edges of the bins and of the reference band in ascending order, each once. Returns their number. */
 static size_t all_edges(const struct kd_integral_request *r, double *edges)
 {
     size_t n = r->edges.n, kept = 1;
@@ -95,8 +95,9 @@ static size_t all_edges(const struct kd_integral_request *r, double *edges)
     return kept;
 }
 
-/* Light between two energies at one frequency, from the continuum and from the line. `line`: number of the line's
- * photons at all energies. The light of the line is summed over the bins between the two energies. */
+/* Fourier transform, at one frequency, of the light between two energies: light of the continuum, and light of the
+ * line. The light of the line is summed over the bins between these energies. line: number of photons of the whole
+ * line. */
 struct band { double re, im; };
 
 static struct band band_of(const double *edges, size_t n, const double *part, size_t stride, double photon_index,
@@ -110,13 +111,14 @@ static struct band band_of(const double *edges, size_t n, const double *part, si
     return band;
 }
 
-/* Time by which a lags behind b, from the phase of the cross spectrum; exp(2 pi i f t) in the transforms. */
+/* Time by which `a` lags behind `b`, from the phase of their cross spectrum. Transforms have the sign exp(2 pi i f t).
+ */
 static double lag_of(struct band a, struct band b, double frequency)
 {
     return atan2(a.im * b.re - a.re * b.im, a.re * b.re + a.im * b.im) / (2 * M_PI * frequency);
 }
 
-/* Transforms of the line: frequency 0 comes first. */
+/* Transforms of the line's light, one after the other by frequency. The frequency 0 is the first. */
 struct lines {
     const double *edges;
     size_t n, stride;
@@ -130,7 +132,7 @@ static struct band light_of(const struct kd_integral_request *r, const struct li
     return band_of(l->edges, l->n, part + 2 * (k + 1), l->stride, r->photon_index, l->line, direct, low, high);
 }
 
-/* Without a reference band the reference is the source's direct light. */
+/* Light of the reference band. Without such a band it is the source's direct light. */
 static struct band reference_of(const struct kd_integral_request *r, const struct lines *l, const double *part,
                                 const double direct[2], size_t k)
 {

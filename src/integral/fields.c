@@ -71,7 +71,7 @@
       .unit = "deg", \
       .of = kinds, \
       __VA_ARGS__ }
-/* Inclinations on either side of edge-on. check.c refuses the others. */
+/* Two ranges of inclinations, one on either side of edge-on. check.c refuses the others. */
 #define BESIDE(low, below, above, high) \
     .help = "angle between the axis and the observer, who is at infinity; not " below " to " above, \
     .schema = "\"anyOf\":[{\"type\":\"number\",\"minimum\":" low ",\"maximum\":" below "},{\"type\":\"number\"," \
@@ -342,7 +342,7 @@ static void add_presets(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* The schema of a spectrum covers both a disk and a scene. */
+/* Writes the schema of a request. The schema of a spectrum covers both a disk and a scene. */
 void kd_integral_request_schema(struct kd_json *json, const char *name, enum kd_integral what)
 {
     const unsigned of = what == KD_INTEGRAL_SPECTRUM ? SPECTRUM | VOLUME : 1u << what;

@@ -4,14 +4,14 @@
 
 #define GIGA 1e9
 
-/* exp(2 pi i turns) as cosine and sine. Whole turns are removed first, since `turns` may be large. */
+/* Cosine and sine of 2 pi turns. Whole turns are removed first, because `turns` may be large. */
 static void turn(double turns, double *re, double *im)
 {
     const double angle = 2 * M_PI * (turns - rint(turns));
     *re = cos(angle), *im = sin(angle);
 }
 
-/* Sums a row times its columns' phases, with four independent sums so that they pipeline. */
+/* Sums a row of pixels times the phases of the columns. Four independent sums keep the pipeline full. */
 static void row_sum(const float *row, const double *re, const double *im, uint32_t width, double *out_re,
                     double *out_im)
 {

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEPT = 8 }; /* number of cached images, 150 kB each */
+enum { KEPT = 8 }; /* number of cached images, of 150 kB each */
 
 static struct entry {
-    double inclination_deg; /* inclination; together with the image's hole it is the key */
-    unsigned long used;     /* time of last use; 0: empty */
+    double inclination_deg; /* inclination of the disk; the cache key is this and the image's hole */
+    unsigned long used;     /* time of the last use; 0 if the entry is empty */
     struct kd_disk_image image;
 } entries[KEPT];
 static unsigned long uses;

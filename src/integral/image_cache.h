@@ -1,4 +1,4 @@
-/* Cache of recent disk images: fits ask for the same hole and inclination repeatedly. Any thread. */
+/* Cache of recent disk images, because fits request the same hole and inclination repeatedly. Any thread. */
 #ifndef KD_INTEGRAL_IMAGE_CACHE_H
 #define KD_INTEGRAL_IMAGE_CACHE_H
 
@@ -6,7 +6,7 @@
 #include "physics/disk/disk_image.h"
 #include "physics/spacetime/hole.h"
 
-/* Gets a copy of the image, and computes the image if it is not cached. The caller frees the copy. */
+/* Makes a copy of a disk's image, which the caller frees. The image is computed if the cache does not have it. */
 enum kd_status kd_cached_disk_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
                                     struct kd_error *error);
 

@@ -11,8 +11,8 @@
 
 /* request.c */
 const struct kd_row *kd_integral_field_named(const struct kd_integral_request *request,
-                                             const char *name); /* NULL: no field of this name */
-/* Replaces a list by room for n numbers. */
+                                             const char *name); /* The field of this name; NULL if there is none. */
+/* Replaces a list by one with room for n numbers. */
 enum kd_status kd_integral_make_room(struct kd_integral_request *request, const struct kd_row *f, size_t n,
                                      const char *pointer, struct kd_number_list **list, struct kd_error *error);
 
@@ -20,11 +20,11 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
 /* Checks that the numbers of a list are strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error);
-/* Refuses a list if fields that would generate the list are given as well. */
+/* Refuses a list together with fields that would generate the same list. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error);
-/* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to
- * 1. */
+/* Fills a list with n numbers in geometric progression. If `first` is 0, the numbers are the midpoints of n equal parts
+ * of the range from 0 to 1. */
 enum kd_status kd_integral_fill_list(struct kd_integral_request *request, const char *name, uint32_t n, double first,
                                      double last, struct kd_error *error);
 /* The corona of a request whose emissivity is ring, disk or slab. */
@@ -32,7 +32,7 @@ struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *requ
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
                                              struct kd_error *error);
 
-/* echo.c: integrals of an echo. image: the image of the request's disk. */
+/* echo.c: integrals of an echo. image: image of the request's disk. */
 struct kd_disk_image;
 struct kd_integral_answer;
 enum kd_status kd_integral_impulse(const struct kd_integral_request *request, const struct kd_disk_image *image,
@@ -46,7 +46,7 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
 /* scene.c */
 /* Reads the members "preset" and "scene" of a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
-/* Check that visibilities can be computed from the scene's picture. */
+/* Check that the scene's picture is such that visibilities can be computed from it. */
 enum kd_status kd_integral_check_flat(const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 

@@ -1,4 +1,5 @@
-/* Simulates an observation: visibilities of a scene at the times and baselines of a file, with its errors. */
+/* Simulates an observation: visibilities of a scene at the times and baselines of an observed file, with the errors of
+ * that file. */
 #include "observe/simulate.h"
 #include "integral/compare.h"
 #include "integral/integral_internal.h"

@@ -41,13 +41,13 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
     const double w = scene.image.width, h = scene.image.height,
                  size = r->pixels * (kd_integral_is_finer(r, picture) ? KD_INTEGRAL_FINER : 1) / fmax(w, h);
     scene.image.width = (int32_t)fmax(1, rint(w * size)), scene.image.height = (int32_t)fmax(1, rint(h * size));
-    scene.style.beam_uas = 0; /* no telescope beam */
+    scene.style.beam_uas = 0; /* without a telescope's beam */
     scene.style.bloom = 0;
     if (kd_integral_is_mapped(r->what)) {
         scene.image.layers = layers_of(r, &scene);
     } else {
-        /* The scene's own frequency is used, to which the flux refers, because normalised matter must be the same at
-         * all frequencies. */
+        /* Keeps the scene's own frequency as the one at which matter is normalised to the flux, so that the matter is
+         * the same at all frequencies. */
         scene.volume.normalise_ghz =
             isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
         kd_scene_set_frequency(&scene, r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9);

@@ -46,7 +46,7 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
     return kd_row_make_room(f, request, n, pointer, list, error);
 }
 
-/* Reads the members that are no fields. */
+/* Reads the members of a document that are not fields. */
 static enum kd_status read_others(struct kd_integral_request *request, cJSON *root, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

@@ -15,12 +15,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EDGE 1 /* width of the border, in pixels; its brightness indicates light beyond the map */
+/* width of the map's border, in pixels; the border's brightness shows whether there is light beyond the map */
+#define EDGE 1
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* columns of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
-/* index of the value that replaces FLUX for sets */
+/* index of the value that takes the place of FLUX for a comparison of sets */
 enum { PICTURES };
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
@@ -50,7 +51,7 @@ static void lay_out(struct kd_integral_answer *answer)
         c[r->what == KD_INTEGRAL_VOLUME ? FLUX_ERROR : ERROR][row] = NAN;
 }
 
-/* Allocates what a model of an observation needs, and computes the factors of scattering. */
+/* Allocates the arrays for a model of an observation, and computes the factors of scattering. */
 static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *error)
 {
     const struct kd_integral_request *r = run->answer.request;
@@ -97,7 +98,7 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
     return KD_OK;
 }
 
-/* Sums a map. Values that are not finite are counted in *undefined and set to 0. */
+/* Sums a map. Sets values that are not finite to 0, and adds their number to *undefined. */
 static double total(float *map, size_t n, double *undefined)
 {
     double sum = 0;
@@ -115,8 +116,8 @@ static void multiply(float *map, size_t n, float factor)
         map[i] *= factor;
 }
 
-/* Estimate of the light beyond the map: the flux of a sky that has the border's mean brightness everywhere, as a
- * fraction of the map's sum. */
+/* Estimate of the light beyond the map, as a fraction of the map's sum. It is the sum of a map that has the border's
+ * mean brightness everywhere. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
     double edge = 0, n = 0;
@@ -141,7 +142,7 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
     memcpy(run->answer.values, told, sizeof told);
 }
 
-/* Writes the worst value of all maps, and the number of pictures in place of a flux. */
+/* For a comparison of sets: writes the worst value of all maps, and the number of pictures in place of the flux. */
 static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
 {
     double *values = run->answer.values;
@@ -171,7 +172,7 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        /* the layer of an image order is in the unit of light; the layer of the total light is in Jy/sr */
+        /* layers of image orders are in units of light, but the layer of the total light is in Jy/sr */
         if (k && kd_scene_is_radio_alone(scene))
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
         sum = total(map, n, &undefined); /* map 0, the total light, is summed last, so that `sum` becomes its sum */
@@ -208,7 +209,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     if (kd_integral_is_finer(r, run->picture)) {
         c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
                                               : fmin(KD_INTEGRAL_OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
-                                                     1); /* 1 if the coarser picture showed no light */
+                                                     1); /* the error is 1 if the coarser picture showed no light */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }
@@ -248,10 +249,9 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Visibility of the map, enlarged and rotated, at a baseline. The enlarged and rotated map is not computed.
- * Enlarging the map by a factor is equivalent to a baseline that is longer by this factor. Rotating the map is
- * equivalent to a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
- * (observe/observation.h). */
+/* Visibility of the map, enlarged and rotated, at a baseline. That map itself is not computed. A map enlarged by a
+ * factor is equivalent to a baseline that is longer by this factor, and a rotated map is equivalent to a baseline that
+ * is rotated back. Observations use the conjugate of kd_fourier's sign (observe/observation.h). */
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;
@@ -274,7 +274,8 @@ static void model(void *user, double size, double angle_deg, double (*out)[2])
     }
 }
 
-/* Searches for the quantities that the request solves for. Afterwards run->model is the model with the values found. */
+/* Searches for the quantities that the request solves for. At the end, run->model holds the model with the values
+ * found. */
 static void search(struct kd_integral_run *run)
 {
     const struct kd_integral_request *r = run->answer.request;
@@ -292,7 +293,7 @@ static void search(struct kd_integral_run *run)
     kd_align(r->comparison, &params, run->room, run->model, &run->answer.solved);
 }
 
-/* Evaluates the sets of the current picture, in the order of the pictures. True: there is more to do. */
+/* Evaluates the sets of the current picture, in order. Returns true if some are left when the time is over. */
 static bool step_sets(struct kd_integral_run *run, double until_ms)
 {
     const struct kd_integral_request *r = run->answer.request;

@@ -1,5 +1,4 @@
-/* Reads and checks the scene of a request ("preset" and "scene"), and the fields that say which pictures are made of
- * it. */
+/* Reads and checks the scene of a request ("preset" and "scene"), and the fields that determine its pictures. */
 #include "integral/integral_internal.h"
 #include "integral/request.h"
 #include "integral/pictures.h"
@@ -123,7 +122,7 @@ static enum kd_status fill_lengths(struct kd_integral_request *r, struct kd_erro
     return status;
 }
 
-/* Combines each length with each angle; all lengths of one angle are adjacent. */
+/* Makes a baseline from each pair of a length and an angle. All lengths of one angle are adjacent. */
 static enum kd_status make_baselines(struct kd_integral_request *r, struct kd_error *error)
 {
     struct kd_number_list *u, *v, *angles;

@@ -74,7 +74,8 @@ static enum kd_status read_own(struct kd_integral_set *set, const cJSON *item, b
     return KD_OK;
 }
 
-/* Checks that a set does not give a value that the request solves for, because the solution would replace the value. */
+/* Checks that a set gives no value for a quantity that the request solves for, because the solution would replace it.
+ */
 static enum kd_status check_solved(const struct kd_integral_request *r, const cJSON *item, struct kd_error *error)
 {
     static const struct {
@@ -156,7 +157,7 @@ enum kd_status kd_integral_make_sets(struct kd_integral_request *r, struct kd_er
         return kd_error_set(error, KD_ENOMEM, "out of memory for %zu sets", n);
     for (const cJSON *item = s->tree->child; item; item = item->next) {
         struct kd_integral_set *set = &s->at[s->n];
-        /* copied as bytes, so that padding is equal too and equal scenes are found by their bytes */
+        /* sets are copied as bytes, including padding, because equal scenes are recognised by their bytes */
         memset(set, 0, sizeof *set);
         memcpy(&set->scene, r->scene, sizeof set->scene);
         set->flux_jy = NAN, set->size = 1, set->row = (uint32_t)s->n;

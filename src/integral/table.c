@@ -13,12 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REST_KEV 6.4 /* default energy of the line: that of iron */
-#define LEAST 0.05   /* default first edge divided by that energy; not 0, because 0 has no logarithm */
+#define REST_KEV 6.4 /* default energy of the line, keV: that of iron */
+#define LEAST 0.05   /* default first edge divided by the line's energy; above 0, because it needs a logarithm */
 #define ISCO "inner_isco"
 
-/* Fields that may be axes, with the names that they have in the file, which has at most twelve letters. The image of
- * the disk depends on the spin, the hole's other parameters and the inclination. */
+/* Fields that may be axes, with their names in the file, which have at most twelve letters. The image of the disk
+ * depends on the spin, on the hole's other parameters and on the inclination. */
 static const struct {
     const char *field, *name;
 } allowed[] = {
@@ -58,7 +58,7 @@ static const char *name_of(const struct kd_table_axis *axis)
     return ISCO;
 }
 
-/* Number of the axes of the image that come before this axis; IMAGE_AXES for all other axes. */
+/* For an axis on which the image depends: number of such axes before it. For all other axes: IMAGE_AXES. */
 static size_t rank_of(const struct kd_table_axis *axis)
 {
     size_t i = 0;
@@ -74,13 +74,13 @@ static double *field_at(struct kd_integral_request *request, const struct kd_tab
     return (double *)(void *)((char *)request + axis->field->offset);
 }
 
-/* The word of `seen` that contains this field's bit. */
+/* The word of the bit mask `seen` that contains this field's bit. */
 static uint64_t *seen_of(struct kd_integral_request *request, const struct kd_row *field)
 {
     return &request->seen[(field - kd_integral_fields) / 64];
 }
 
-/* This field's bit in that word. */
+/* This field's bit in its word of `seen`. */
 static uint64_t bit_of(const struct kd_row *field) { return UINT64_C(1) << (field - kd_integral_fields) % 64; }
 
 static const struct kd_row *field_named(const struct kd_integral_request *request, const char *name)
@@ -91,7 +91,7 @@ static const struct kd_row *field_named(const struct kd_integral_request *reques
     return found ? kd_integral_field_named(request, strcmp(name, ISCO) ? name : "inner") : NULL;
 }
 
-/* Reads one number of an axis; *rest is the text after it. */
+/* Reads one number of an axis. Sets *rest to the text after the number. */
 static enum kd_status read_number(const char *name, const char *text, double *out, const char **rest,
                                   struct kd_error *error)
 {
@@ -108,8 +108,8 @@ static enum kd_status read_number(const char *name, const char *text, double *ou
     return KD_OK;
 }
 
-/* Adds a value, rounded to what the file stores. It must be in the range of the field, and greater than the value
- * before. */
+/* Adds a value to an axis, rounded as the file stores it. The value must be in the range of the field and greater than
+ * the value before. */
 static enum kd_status add_value(struct kd_table_axis *axis, double value, struct kd_error *error)
 {
     char pointer[40], text[KD_NUMBER_SIZE];
@@ -133,7 +133,7 @@ static enum kd_status add_value(struct kd_table_axis *axis, double value, struct
     return KD_OK;
 }
 
-/* Reads one number, or START:STOP/COUNT, and adds its values. */
+/* Reads one number, or a range START:STOP/COUNT, and adds its values to an axis. */
 static enum kd_status read_values(struct kd_table_axis *axis, const char *text, const char **rest,
                                   struct kd_error *error)
 {
@@ -172,7 +172,8 @@ done:
     return status;
 }
 
-/* Reads FIELD=VALUES; VALUES are numbers and ranges with commas, optionally with "log:" before them. */
+/* Reads an axis from the text FIELD=VALUES. VALUES are numbers and ranges separated by commas. The prefix "log:" makes
+ * the axis logarithmic. */
 static enum kd_status read_axis(const struct kd_integral_request *request, const char *text, struct kd_table_axis *axis,
                                 struct kd_error *error)
 {
@@ -198,7 +199,7 @@ done:
     return status;
 }
 
-/* Adds an axis at its place: axes on which the image depends come first. */
+/* Adds an axis in order: axes on which the image depends come before the others. */
 static enum kd_status add_axis(struct kd_table *table, const char *text, struct kd_error *error)
 {
     struct kd_table_axis axis;
@@ -238,7 +239,7 @@ done:
     return status;
 }
 
-/* The checked request of a node. The request owns no memory. */
+/* Makes the checked request of a node. This request owns no memory. */
 static enum kd_status node_of(const struct kd_table *table, size_t node, struct kd_integral_request *out,
                               struct kd_error *error)
 {
@@ -260,7 +261,7 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
 /* Fields that define bins of equal widths, in place of the list `edges`. */
 static const char *const even[] = { "energy_min", "energy_max", "bins" };
 
-/* The default energies are in keV. They begin above 0 and surround the line of iron. */
+/* Sets the default energies, in keV. They begin above 0 and cover the range about the line of iron. */
 static enum kd_status set_energies(struct kd_table *table, struct kd_error *error)
 {
     struct kd_integral_request *base = &table->base;
@@ -350,7 +351,7 @@ static void put_float(uint8_t **at, double value)
     put_word(at, bits);
 }
 
-/* Appends the cards of one column. */
+/* Appends the FITS cards of one column. */
 static enum kd_status put_column(struct kd_buffer *cards, unsigned number, const char *name, const char *form,
                                  const char *unit)
 {
@@ -397,17 +398,18 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
     kd_json_end(json);
 }
 
-/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. All other fields
- * have the defaults of kerrd line, which accepts this document without the axes. */
+/* Writes the request of the table as JSON: the fields with one given value, the energies, and the axes. All other
+ * fields have the defaults of `kerrd line`. Without the axes, `kerrd line` accepts this document. */
 static enum kd_status put_request(const struct kd_table *table, struct kd_buffer *cards)
 {
     struct kd_buffer text = { 0 };
     struct kd_json json = kd_json_begin(&text);
-    const bool edges = kd_integral_given(&table->base, "edges"); /* instead of even bins */
+    const bool edges = kd_integral_given(&table->base, "edges"); /* list of edges instead of even bins */
     kd_json_object(&json, NULL);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_row *f = &kd_integral_fields[i];
-        bool is_even = !strcmp(f->name, "rest_energy"); /* for a table this field has a default of its own */
+        /* rest_energy is written in any case, because its default for a table differs from that of kerrd line */
+        bool is_even = !strcmp(f->name, "rest_energy");
         for (size_t k = 0; !edges && k < sizeof even / sizeof *even; k++)
             is_even = is_even || !strcmp(f->name, even[k]);
         bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST ||
@@ -460,7 +462,7 @@ done:
     return status;
 }
 
-/* Appends a whole table of `size` bytes. */
+/* Appends a whole table of FITS, with `size` bytes. */
 static enum kd_status put_table(const struct kd_fits_shape *shape, const struct kd_buffer *cards, const uint8_t *data,
                                 size_t size, struct kd_buffer *out)
 {
@@ -473,7 +475,8 @@ done:
     return status;
 }
 
-/* The initial value of a fit: the request's value if it lies between the ends, otherwise the middle value. */
+/* The initial value of a parameter in a fit: the request's value if it lies between the ends of the axis, otherwise the
+ * middle value. */
 static double initial_of(const struct kd_table *table, const struct kd_table_axis *axis)
 {
     struct kd_integral_request base = table->base;
@@ -490,7 +493,7 @@ static void put_parameter(const struct kd_table *table, const struct kd_table_ax
     *at += KD_TABLE_NAME;
     put_word(at, axis->log);
     put_float(at, initial_of(table, axis));
-    put_float(at, 0.01 * (last - first)); /* first step of a fit */
+    put_float(at, 0.01 * (last - first)); /* step of this parameter at the start of a fit */
     put_float(at, first), put_float(at, first), put_float(at, last), put_float(at, last);
     put_word(at, (uint32_t)axis->n);
     for (size_t i = 0; i < most; i++)

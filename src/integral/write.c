@@ -19,7 +19,7 @@ static size_t count(const struct kd_integral_column *list, size_t most)
     return n;
 }
 
-/* Writes a NULL-terminated list, followed by n further sentences. */
+/* Writes the sentences of a NULL-terminated list, then n further sentences. */
 static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences,
                             const char *const *more, size_t n)
 {
@@ -41,7 +41,7 @@ static enum kd_status write_scene(struct kd_json *json, const struct kd_scene *s
     return status;
 }
 
-/* Parameters that are lists are written as columns. */
+/* Writes the parameters, except lists, which are columns of the answer. */
 static void write_parameters(struct kd_json *json, const struct kd_integral_request *request)
 {
     const struct kd_document document = kd_integral_document(request->what);
@@ -60,7 +60,7 @@ static void write_units(struct kd_json *json, const struct kd_integral_kind_of *
     kd_json_end(json);
 }
 
-/* Lists the sources that only some requests of a kind need. Returns their number. */
+/* Lists the sources that only some requests of a kind need. Returns the number of these sources. */
 enum { MORE_SOURCES = 2 + KD_HOLE_MORE_COUNT };
 static size_t more_sources(const struct kd_integral_request *r, const char *out[MORE_SOURCES])
 {
@@ -79,7 +79,7 @@ static size_t more_sources(const struct kd_integral_request *r, const char *out[
     return n;
 }
 
-/* columns: whether the document has the columns. */
+/* Writes an answer as JSON. columns: true if the document has the columns. */
 static enum kd_status write_json(const struct kd_integral_answer *answer, bool columns, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
@@ -165,7 +165,7 @@ done:
     return status;
 }
 
-/* Length of the longest word of a column; 0: its rows have no words. */
+/* Length of the longest word of a column; 0 if the column has numbers. */
 static size_t longest_word(const struct kd_integral_answer *answer, size_t column)
 {
     size_t longest = 0;
@@ -203,7 +203,7 @@ done:
     return status;
 }
 
-/* Writes the same as numpy.savez: an array for each column, and the rest of the answer as answer.json. */
+/* Writes a .npz file as numpy.savez does: an array for each column, and answer.json with the rest of the answer. */
 static enum kd_status write_npz(const struct kd_integral_answer *answer, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
@@ -264,7 +264,7 @@ static void raw(struct kd_json *json, const char *name, const char *text)
     kd_json_raw(json, name, text, strlen(text));
 }
 
-/* Writes an object schema with one member of this type for each item of the list. */
+/* Writes an object schema that has a member of the given type for each item of the list. */
 static void add_listed(struct kd_json *json, const char *name, const struct kd_integral_column *list, size_t n,
                        const char *type)
 {

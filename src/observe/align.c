@@ -7,14 +7,14 @@
 #include <string.h>
 
 enum { STARTS = 3, SIMPLEX_STEPS = 90, SHIFT_CELLS = KD_ALIGN_SHIFTS / 2, NEWTON_STEPS = 30 };
-#define SPREAD 1e-9 /* relative spread of chi^2 within the last simplex */
+#define SPREAD 1e-9 /* largest relative spread of chi^2 in a simplex at which the search ends */
 
 struct search {
     const struct kd_comparison *c;
     const struct kd_align_params *p;
-    double given_scale, longest; /* longest: largest u or v of a compared visibility, in wavelengths */
+    double given_scale, longest; /* longest: largest u or v of the compared visibilities, in wavelengths */
     double (*model)[2];
-    double *cell; /* cells of the grid of shifts */
+    double *cell; /* values at the cells of the grid of shifts */
     struct kd_alignment best;
     double best_total;
 };
@@ -35,7 +35,8 @@ unsigned kd_align_evaluations(unsigned solve)
     return size * angle == 1 ? 1 : size * angle + STARTS * 2 * SIMPLEX_STEPS + 1;
 }
 
-/* Agreement of a shifted model with the visibilities, and its derivatives along both axes. */
+/* Agreement of a shifted model with the visibilities: its value, and its first and second derivatives along both axes.
+ */
 struct agreement { double value, slope[2], bend[3]; };
 
 static struct agreement agree(const struct search *s, double east, double north)
@@ -58,7 +59,8 @@ static struct agreement agree(const struct search *s, double east, double north)
     return a;
 }
 
-/* Agreement at each cell of a grid of shifts. From cell to cell, a phase turns by a constant factor. */
+/* Computes the agreement at each cell of a grid of shifts. From one cell to the next, a phase turns by a constant
+ * angle. */
 static void fill_cells(const struct search *s, double cell, int cells)
 {
     const int side = 2 * cells + 1;
@@ -84,8 +86,8 @@ static void fill_cells(const struct search *s, double cell, int cells)
     }
 }
 
-/* Finds the shift of the current model that agrees best: the best cell of a grid of a quarter of the shortest fringe,
- * then Newton's method from there. */
+/* Finds the shift of the current model that gives the best agreement. It takes the best cell of a grid, whose spacing
+ * is a quarter of the shortest fringe, and refines it by Newton's method. */
 static bool find_shift(const struct search *s, double *east, double *north)
 {
     const double cell = 0.25 / s->longest, most = fmin(s->p->most_shift, SHIFT_CELLS * cell);
@@ -98,7 +100,7 @@ static bool find_shift(const struct search *s, double *east, double *north)
     for (int i = 0; i < NEWTON_STEPS; i++) {
         const struct agreement a = agree(s, *east, *north);
         const double determinant = a.bend[0] * a.bend[2] - a.bend[1] * a.bend[1];
-        if (!(determinant > 0) || !(a.bend[0] < 0)) /* there is no maximum near this place */
+        if (!(determinant > 0) || !(a.bend[0] < 0)) /* gives up, because there is no maximum near this place */
             return false;
         const double x = (a.bend[2] * a.slope[0] - a.bend[1] * a.slope[1]) / determinant,
                      y = (a.bend[0] * a.slope[1] - a.bend[1] * a.slope[0]) / determinant;
@@ -116,7 +118,7 @@ static double clamp_size(double log_size)
     return exp(fmin(fmax(log_size, log(KD_ALIGN_LEAST_SIZE)), log(KD_ALIGN_MOST_SIZE)));
 }
 
-/* Computes chi^2 at a place, and stores the place if it is the best so far. at: the logarithm of the size, and the
+/* Computes chi^2 for a size and an angle, and stores them if chi^2 is the least so far. at: logarithm of the size;
  * angle in degrees. */
 static double try_at(struct search *s, const double at[2])
 {
@@ -144,7 +146,8 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Vertex on the line from the worst vertex through the centre of the others; along = -1 is its mirror image. */
+/* Point on the line from the worst vertex through the centre of the others. along: position on this line; -1 is the
+ * mirror image of the worst vertex. */
 static struct kd_align_vertex on_line(struct search *s, const struct kd_align_vertex *v, int n, double along)
 {
     struct kd_align_vertex out = { 0 };
@@ -158,7 +161,8 @@ static struct kd_align_vertex on_line(struct search *s, const struct kd_align_ve
     return out;
 }
 
-/* Refines from a place in n dimensions; vertices are sorted by value. Returns whether the simplex shrank to a point. */
+/* Refines a place in n dimensions by the simplex method, in which vertices are sorted by value. Returns true if the
+ * simplex shrank to a point. */
 static bool refine(struct search *s, const struct kd_align_vertex *from, const int *dimension, int n,
                    const double step[2])
 {
@@ -215,7 +219,7 @@ static bool near(const struct kd_align_vertex *a, const struct kd_align_vertex *
     return fabs(a->at[0] - b->at[0]) < 1.5 * step[0] && fabs(remainder(a->at[1] - b->at[1], 360)) < 1.5 * step[1];
 }
 
-/* Refines the best places of the grid that are not neighbours of one another. */
+/* Refines the best places of the grid, except those next to a better place. */
 static void refine_best(struct search *s, struct kd_align_vertex *grid, int n, const double step[2])
 {
     const struct kd_align_vertex *from[STARTS];
@@ -225,7 +229,7 @@ static void refine_best(struct search *s, struct kd_align_vertex *grid, int n, c
         dimension[dimensions++] = 0;
     if (s->p->solve & KD_ALIGN_ANGLE)
         dimension[dimensions++] = 1;
-    if (kd_pause()) /* the grid is incomplete, because the search was given up */
+    if (kd_pause()) /* stops, because the search was given up and the grid is incomplete */
         return;
     qsort(grid, (size_t)n, sizeof *grid, by_value);
     for (int i = 0; i < n && starts < STARTS; i++) {
@@ -255,13 +259,13 @@ void kd_align(const struct kd_comparison *c, const struct kd_align_params *param
     struct search s = { .c = c,
                         .p = params,
                         .given_scale = out->scale,
-                        .longest = 1, /* at least one wavelength, so that the size of a cell is finite */
+                        .longest = 1, /* at least one wavelength, so that the size of a cell stays finite */
                         .model = model,
                         .cell = room->shift,
                         .best = KD_ALIGNMENT_NONE,
                         .best_total = INFINITY };
     s.best.scale = s.given_scale;
-    memset(s.best.converged, 0, sizeof s.best.converged); /* this result remains if chi^2 is nowhere finite */
+    memset(s.best.converged, 0, sizeof s.best.converged); /* keeps this result if chi^2 is nowhere finite */
     for (size_t i = 0; i < c->n; i++)
         s.longest = fmax(s.longest, fmax(fabs(c->at[i].u), fabs(c->at[i].v)));
     search_grid(&s, room->grid, sizes, angles, step);

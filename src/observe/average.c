@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MJD_1960 36934 /* modified Julian date at which the bins begin */
+#define MJD_1960 36934 /* modified Julian date from which bins are counted */
 
-/* Index of the bin in which a time lies. The time is rounded to 0.1 s first, because uvfits stores it in single
+/* Index of the time bin of a visibility. The time is first rounded to 0.1 s, because uvfits stores it in single
  * precision. */
 static double bin_of(const struct kd_observation *o, double hour, double seconds)
 {

@@ -1,5 +1,6 @@
 /* Closure phases and log closure amplitudes of one time (A. E. E. Rogers et al. 1974, ApJ 193, 293; A. A. Chael et al.
- * 2018, ApJ 857, 23, eqs. 11 to 15). The sets are those of ehtim's c_phases and c_amplitudes. */
+ * 2018, ApJ 857, 23, eqs. 11 to 15). The sets of triangles and quadrangles are those of ehtim's c_phases and
+ * c_amplitudes. */
 #include "observe/reduce.h"
 
 #include <math.h>
@@ -8,8 +9,8 @@
 
 #define DEG (180 / M_PI)
 
-/* Table that gives the visibility of two stations at one time. */
-struct table { uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* index plus 1; 0: none */ };
+/* Table of the visibilities of one time, by their two stations. */
+struct table { uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* index plus 1; 0: there is none */ };
 
 static bool find(const struct table *t, struct kd_comparison_row *row, int k, uint8_t first, uint8_t second)
 {
@@ -21,7 +22,8 @@ static bool find(const struct table *t, struct kd_comparison_row *row, int k, ui
 
 static double snr_of(const struct kd_measured *m) { return hypot(m->re, m->im) / m->sigma; }
 
-/* Phase of the bispectrum. Its variance is the sum of the variances of three phases, each with an error of 1/snr. */
+/* Phase of the bispectrum of three visibilities. Its variance is the sum of the variances of the three phases, each
+ * with an error of 1/snr. */
 static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_params *p, struct kd_comparison_row *row)
 {
     double phase = 0, variance = 0;
@@ -36,9 +38,9 @@ static bool phase_of(const struct kd_comparison *c, const struct kd_comparison_p
     return isfinite(variance) && 1 / sqrt(variance) >= p->snr_cut;
 }
 
-/* Log closure amplitude. Unless amplitudes are used as measured, two corrections are made for noise. Noise increases
- * the mean of an amplitude, so the amplitude is debiased. To second order noise decreases the mean of the logarithm of
- * a debiased amplitude by 1/(2 snr^2), so that is added. */
+/* Log closure amplitude. Unless amplitudes are used as measured, two corrections are made for noise. First, noise
+ * increases the mean of an amplitude, so the amplitude is debiased. Second, to second order, noise decreases the mean
+ * of a debiased amplitude's logarithm by 1/(2 snr^2), so this number is added. */
 static bool amplitude_of(const struct kd_comparison *c, const struct kd_comparison_params *p,
                          struct kd_comparison_row *row)
 {
@@ -92,7 +94,7 @@ done:
     return status;
 }
 
-/* Maximal set: three closure amplitudes for every four stations. */
+/* Adds the maximal set of closure amplitudes: three for every four stations. */
 static enum kd_status all_quadrangles(struct kd_comparison *c, const struct table *t,
                                       const struct kd_comparison_params *p, const uint8_t *s, int n,
                                       struct kd_comparison_row *row, struct kd_error *error)
@@ -114,8 +116,8 @@ done:
     return status;
 }
 
-/* Minimal set. Each quadrangle has the first station, one station from the fourth on, and two of the stations between
- * them. */
+/* Adds the minimal set of closure amplitudes. Each quadrangle has the first station, one station from the fourth on,
+ * and two of the stations between these. */
 static enum kd_status quadrangles(struct kd_comparison *c, const struct table *t, const struct kd_comparison_params *p,
                                   const uint8_t *s, int n, struct kd_comparison_row *row, struct kd_error *error)
 {

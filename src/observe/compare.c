@@ -1,4 +1,4 @@
-/* Prepares an observation for comparison and computes chi^2 of a model (comparison.h). */
+/* Prepares an observation for comparison, and computes chi^2 of a model (comparison.h). */
 #include "observe/reduce.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_compar
     return KD_OK;
 }
 
-/* Leaves out short baselines and adds systematic errors to the others. */
+/* Removes short baselines, and adds systematic errors to the others. */
 static void prepare(struct kd_comparison *c, const struct kd_comparison_params *p)
 {
     size_t n = 0;
@@ -45,7 +45,7 @@ static void prepare(struct kd_comparison *c, const struct kd_comparison_params *
     c->n = n;
 }
 
-/* Amplitude, debiased unless it is used as measured. */
+/* Amplitude of a visibility, debiased unless amplitudes are used as measured. */
 static double amplitude_of(const struct kd_measured *m, const struct kd_comparison_params *p)
 {
     const double measured = hypot(m->re, m->im);
@@ -66,8 +66,8 @@ static enum kd_status add_amplitude(struct kd_comparison *c, const struct kd_com
     return amplitude / m->sigma >= p->snr_cut ? kd_comparison_add(c, &row, error) : KD_OK;
 }
 
-/* Adds two rows, for the real and the imaginary part of a visibility. The error is that of each part. The cut and
- * systematic.amplitude use the same amplitude as in add_amplitude. */
+/* Adds two rows for a visibility: its real part and its imaginary part. The row's error is that of each part. The cut
+ * by signal-to-noise ratio, and systematic_amplitude, use the same amplitude as add_amplitude. */
 static enum kd_status add_visibility(struct kd_comparison *c, const struct kd_comparison_params *p, size_t i,
                                      struct kd_error *error)
 {
@@ -175,8 +175,8 @@ double kd_comparison_residual(const struct kd_comparison_row *row)
     return (row->product == KD_PRODUCT_CLOSURE_PHASE ? remainder(difference, 360) : difference) / row->error;
 }
 
-/* Contribution of a row to chi^2 (Chael et al. 2018, eqs. C1 to C4). For a phase it uses the chord between data and
- * model on the unit circle. */
+/* Contribution of a row to chi^2 (Chael et al. 2018, eqs. C1 to C4). For a phase it is computed from the chord between
+ * data and model on the unit circle. */
 static double share_of(const struct kd_comparison_row *row)
 {
     const double residual = kd_comparison_residual(row), error = row->error / DEG;
@@ -209,7 +209,7 @@ double kd_comparison_total(const struct kd_comparison *c, const double (*model)[
     return sum;
 }
 
-/* Fourier transform of a pixel's shape along one axis. x: turns for each pixel. */
+/* Fourier transform of a pixel's shape along one axis. x: turns of the phase across one pixel. */
 static double along(enum kd_pixel_shape pulse, double x)
 {
     const double sinc = fabs(x) < 1e-9 ? 1 : sin(M_PI * x) / (M_PI * x);

@@ -1,5 +1,5 @@
-/* Reads the EHT's CSV of Stokes I (data product 2019-D01-01): one line about the observation, one line of column names,
- * and one line for each visibility:
+/* Reads the EHT's CSV of Stokes I (data product 2019-D01-01): a line about the observation, a line of column names, and
+ * a line for each visibility:
  *
  *     #SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz
  *     #time(UTC),T1,T2,U(lambda),V(lambda),Iamp(Jy),Iphase(d),Isigma(Jy)
@@ -21,7 +21,7 @@ struct line {
     size_t length, number;
 };
 
-/* Reads the next line without its line feed. Returns false at the end. */
+/* Reads the next line, without its line feed. Returns false at the end of the text. */
 static bool next_line(const char **at, const char *end, struct line *line)
 {
     if (*at == end)
@@ -36,7 +36,7 @@ static bool next_line(const char **at, const char *end, struct line *line)
     return true;
 }
 
-/* Parses text that must be one number from its first to its last character. */
+/* Reads a number. The whole text must be that one number. */
 static bool read_number(const char *text, size_t length, double *out)
 {
     char copy[NUMBER], *end;

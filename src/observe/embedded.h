@@ -1,4 +1,4 @@
-/* Observations that are part of the program, from data/eht. */
+/* Observations that are built into the program, from data/eht. */
 #ifndef KD_OBSERVE_EMBEDDED_H
 #define KD_OBSERVE_EMBEDDED_H
 
@@ -6,13 +6,15 @@
 
 struct kd_embedded_observation {
     const char *name;
-    const unsigned char *data; /* file that kd_observation_read accepts */
+    const unsigned char *data; /* contents of a file, for kd_observation_read */
     size_t size;
 };
-extern const struct kd_embedded_observation kd_embedded_observations[]; /* ends with a name of NULL */
-#define KD_EMBEDDED_OBSERVATIONS "m87-2017-04-05-lo"                    /* their names, for messages */
+/* the list ends with an entry whose name is NULL */
+extern const struct kd_embedded_observation kd_embedded_observations[];
+/* names of these observations, for messages */
+#define KD_EMBEDDED_OBSERVATIONS "m87-2017-04-05-lo"
 
-/* NULL: there is none of this name. */
+/* Returns NULL if there is no observation of this name. */
 const struct kd_embedded_observation *kd_embedded_observation_find(const char *name);
 
 #endif

@@ -43,7 +43,8 @@ static int by_time(const void *a, const void *b)
 
 static bool is_same(const struct kd_measured *x, const struct kd_measured *y) { return !by_time(x, y); }
 
-/* Merge sort. It is stable: of two measurements with the same time and baseline, the first one in the file is kept. */
+/* Sorts by merging, which is stable: of two measurements with the same time and baseline, the first one in the file
+ * remains first, and is kept. */
 static enum kd_status sort(struct kd_measured *at, size_t n, struct kd_error *error)
 {
     struct kd_measured *other = malloc(n * sizeof *other), *from = at, *to = other;

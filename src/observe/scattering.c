@@ -2,19 +2,20 @@
 
 #include <math.h>
 
-#define ALPHA 1.38      /* exponent of the structure function beyond the inner scale */
+#define ALPHA 1.38      /* exponent of the phase structure function beyond the inner scale */
 #define INNER_CM 800e5  /* inner scale of the turbulence */
 #define MAJOR_MAS 1.380 /* FWHM of the kernel at 1 cm, in the limit of long wavelengths */
 #define MINOR_MAS 0.703
 #define POSITION_DEG 81.9 /* position angle of the major axis, from north to east */
-/* the screen's distance from the observer divided by its distance from the source, both in kpc */
+/* ratio of the screen's distance from the observer (kpc) to its distance from the source (kpc) */
 #define MAGNIFICATION (2.82 / 5.53)
 #define RADIANS_PER_MAS (M_PI / 180 / 3.6e6)
 #define C_CM_S 2.99792458e10
 
 enum { BISECTIONS = 60 };
 
-/* Distribution of the wave vector's direction, not normalised; angle from the major axis (Psaltis et al., dipole). */
+/* Distribution of the wave vector's direction (dipole model of Psaltis et al.), not normalised. angle: angle from the
+ * major axis. */
 static double weight(double angle, double k) { return pow(1 + k * sin(angle) * sin(angle), -(ALPHA + 2) / 2); }
 
 /* Mean of cos(2 angle) over the distribution, which is the anisotropy for small r. The integrand is periodic and
@@ -29,7 +30,7 @@ static double anisotropy(double k)
     return sum / norm;
 }
 
-/* The parameter k of the distribution for a given anisotropy, which grows with k. */
+/* The parameter k of the distribution that gives an anisotropy. The anisotropy grows with k. */
 static double find_k(double zeta)
 {
     double low = 0, high = 100;
@@ -49,13 +50,15 @@ void kd_scattering_sgra(struct kd_scattering *out, double frequency_hz)
         norm += out->weight[i] = weight(M_PI * i / KD_SCATTERING_POINTS, k);
     for (int i = 0; i < KD_SCATTERING_POINTS; i++)
         out->weight[i] /= norm;
-    /* D is strength (r/r_in)^2 times the mean of cos^2 for small r; this strength gives a Gaussian of these widths. */
+    /* For small r, D is strength (r/r_in)^2 times the mean of cos^2. This strength gives a Gaussian with the widths of
+     * the kernel. */
     out->strength = pow(M_PI * (1 + MAGNIFICATION) * INNER_CM, 2) * (major * major + minor * minor) / (2 * M_LN2);
     out->wavelength_cm = C_CM_S / frequency_hz;
 }
 
-/* 1F1(-alpha/2; 1/2; -z) - 1. It is computed by the series of exp(-z) 1F1((1 + alpha)/2; 1/2; z), all of whose terms
- * are positive (Abramowitz & Stegun 13.1.27). Beyond z = 40 the asymptotic series has an error below 1e-15 (13.5.1). */
+/* The function 1F1(-alpha/2; 1/2; -z) - 1. Up to z = 40 it comes from the series of exp(-z) 1F1((1 + alpha)/2; 1/2; z),
+ * all of whose terms are positive (Abramowitz & Stegun 13.1.27). Beyond, it comes from the asymptotic series, with an
+ * error below 1e-15 (13.5.1). */
 static double turbulence(double z)
 {
     const double a = (1 + ALPHA) / 2, b = 0.5;

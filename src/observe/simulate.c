@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Finaliser of SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014, OOPSLA, 453). */
+/* Hash function: the finaliser of SplitMix64 (G. L. Steele, D. Lea & C. H. Flood 2014, OOPSLA, 453). */
 static uint64_t mix(uint64_t x)
 {
     x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
@@ -16,7 +16,7 @@ static uint64_t mix(uint64_t x)
 
 static double uniform(uint64_t x) { return ((double)(mix(x) >> 11) + 0.5) * 0x1p-53; }
 
-/* Two independent normal numbers of one key (G. E. P. Box & M. E. Muller 1958). */
+/* Makes two independent normal numbers from one key (G. E. P. Box & M. E. Muller 1958). */
 static void normal(uint64_t seed, uint64_t group, uint64_t item, double out[2])
 {
     const uint64_t step = UINT64_C(0x9e3779b97f4a7c15), key = mix(mix(mix(seed + step) + group + step) + item + step);
@@ -39,7 +39,7 @@ static void put(uint8_t *at, bool is_double, double value)
         at[n] = (uint8_t)word;
 }
 
-/* Replaces the data of one group. model NULL: the group is not part of the observation. */
+/* Replaces the data of one group by the model. model: NULL if the group is not part of the observation. */
 static void fill_group(const struct kd_simulation *s, const struct groups *g, size_t group, uint8_t *data,
                        const double model[2])
 {
@@ -61,7 +61,7 @@ static void fill_group(const struct kd_simulation *s, const struct groups *g, si
     }
 }
 
-/* The visibilities of the groups that the observation contains; all others become empty. */
+/* Writes the visibilities of the groups that the observation contains, and empties all other groups. */
 static void fill_file(const struct kd_simulation *s, const struct groups *g, const double (*model)[2], double (*out)[2])
 {
     const struct kd_observation *o = s->observation;
@@ -80,8 +80,8 @@ static void fill_file(const struct kd_simulation *s, const struct groups *g, con
     }
 }
 
-/* Sets to zero the groups from which no visibility of the observation comes. These are repetitions of the same time and
- * baseline, and flagged groups, which have no positive weight. */
+/* Sets to zero the groups from which the observation has no visibility: repetitions of a time and baseline, and groups
+ * without a positive weight. */
 static void empty_others(const struct kd_simulation *s, const struct groups *g)
 {
     const struct kd_observation *o = s->observation;

@@ -1,6 +1,6 @@
 /* Reads uvfits: visibilities as random groups of the primary HDU, stations in the binary table "AIPS AN" (E. W. Greisen
- * 2020, AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). It does not use CFITSIO, because only two HDUs of FITS are needed
- * (docs/decisions/0020-observations-are-read-here.md).
+ * 2020, AIPS Memo 117; FITS Standard 4.0, 6 and 7.3). The code does not use CFITSIO, because it needs only two HDUs of
+ * FITS (docs/decisions/0020-observations-are-read-here.md).
  *
  * Stokes I is the mean of RR and LL, or one of them if the other has no weight. As in ehtim, channels and IFs are
  * averaged by their weights, and the mean is taken to be at the frequency in the table of stations. */
@@ -13,7 +13,7 @@
 
 enum { BLOCK = 2880, CARD = 80, CARDS = 100 * 36, AXES = 7, PARAMETERS = 32, ELEMENTS = 1 << 16, HDUS = 100, KEY = 20 };
 
-/* Returns the value of a card, the text behind "= "; NULL: the HDU has no such card. */
+/* Returns the value of a card, which is the text behind "= "; NULL if the HDU has no such card. */
 static const char *find_card(const struct hdu *hdu, const char *key)
 {
     char begin[11];
@@ -45,7 +45,7 @@ static double number_or(const struct hdu *hdu, const char *key, double otherwise
     return read_number(hdu, key, &x) ? x : otherwise;
 }
 
-/* Reads a card's quoted text without trailing blanks; "" if it has none. */
+/* Reads the quoted text of a card, without trailing blanks; "" if there is none. */
 static void read_text(const struct hdu *hdu, const char *key, char *out, size_t size)
 {
     const char *card = find_card(hdu, key);
@@ -58,7 +58,8 @@ static void read_text(const struct hdu *hdu, const char *key, char *out, size_t 
     out[n] = 0;
 }
 
-/* Makes a keyword with a number, such as NAXIS2; find_card uses its first eight letters. */
+/* Makes a keyword that ends with a number, such as NAXIS2. Longer keywords are cut to eight letters, as find_card
+ * compares only eight. */
 static void numbered(char out[KEY], const char *key, int i) { snprintf(out, KEY, "%.6s%d", key, i); }
 
 /* Reads a card whose value must be an integer from least to most. */
@@ -75,7 +76,7 @@ static enum kd_status read_whole(const struct file *f, const struct hdu *hdu, co
     return KD_OK;
 }
 
-/* Finds the cards of the HDU that begins at `at`, up to END. The HDU's data begin at the next block. */
+/* Reads the header of the HDU that begins at `at`, up to the card END. The HDU's data begin at the next block. */
 static enum kd_status read_header(const struct file *f, size_t at, struct hdu *hdu)
 {
     *hdu = (struct hdu) { .cards = (const char *)f->data + at };
@@ -93,7 +94,7 @@ static enum kd_status read_header(const struct file *f, size_t at, struct hdu *h
 /* ---- the stations ---- */
 
 struct column {
-    size_t at, size; /* position and size within a row; size 0: the table has no such column */
+    size_t at, size; /* position and size of the column in a row; size 0: the table has no such column */
     char type;
 };
 
@@ -152,7 +153,7 @@ double kd_uvfits_number(const uint8_t *at, bool is_double)
     return (double)x;
 }
 
-struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* NOSTA of each station of the observation */ };
+struct stations { uint32_t number[KD_OBSERVATION_STATIONS]; /* number NOSTA of each station in the table */ };
 
 static enum kd_status read_stations(const struct file *f, const struct hdu *hdu, struct kd_observation *o,
                                     struct stations *out)
@@ -163,7 +164,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
-    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX determine the table's length, and they may be wrong */
+    if (row * rows > f->size - hdu->begin) /* the table's length follows from NAXIS and BITPIX, which may be wrong */
         return kd_error_set(f->error, KD_EINVAL,
                             "the table AIPS AN has %zu rows of %zu bytes; the uvfits must hold them all, but ends %zu "
                             "bytes after the table's header",
@@ -180,7 +181,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
         const double here = (sefd.type == 'D' && sefd.size == 8) || (sefd.type == 'E' && sefd.size == 4)
                                 ? kd_uvfits_number(at + sefd.at, sefd.type == 'D')
                                 : 0;
-        /* sorted by noise; stations with equal noise stay in the order of the table */
+        /* inserts the station in order of noise; stations with equal noise stay in the order of the table */
         for (; k && noise[k - 1] > here; k--) {
             noise[k] = noise[k - 1], out->number[k] = out->number[k - 1];
             memcpy(o->station[k], o->station[k - 1], sizeof o->station[k]);
@@ -321,7 +322,7 @@ enum kd_status kd_uvfits_open(const struct file *f, struct groups *g)
                             "BSCALE and BZERO of the uvfits are %g and %g; BSCALE must be a number other than 0, and "
                             "BZERO a number",
                             g->scale, g->zero);
-    /* This and the product below cannot overflow: the size is at most 2^19, and there are at most 2^20 groups. */
+    /* This product, and the one below, cannot overflow: the size is at most 2^19, and there are at most 2^20 groups. */
     const size_t group = (g->parameters + g->elements) * g->bytes;
     if ((uint64_t)group * g->n > f->size - g->hdu.begin)
         return kd_error_set(
@@ -338,7 +339,8 @@ double kd_uvfits_parameter(const struct groups *g, const uint8_t *group, const s
     return p->there ? kd_uvfits_number(group + p->at * g->bytes, g->bytes == 8) * p->scale + p->zero : 0;
 }
 
-/* Mean of one polarization over the channels, weighted by their weights. Returns the sum of the weights; 0: no data. */
+/* Mean of one polarization over the channels, weighted by their weights. Returns the sum of the weights, which is 0 if
+ * there are no data. */
 static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, double mean[2])
 {
     double weight = 0;
@@ -358,8 +360,9 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* Error that belongs to a weight. As in ehtim, it is computed in single precision, in which weights are stored.
- * Where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2) depends on the precision of the error. */
+/* Error that belongs to a weight. As in ehtim, it is computed in single precision, in which weights are stored. The
+ * precision matters: where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2) depends on rounding of
+ * the error. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
 /* Reads Stokes I and its error. Returns false if no weight is positive. */
@@ -411,7 +414,7 @@ static enum kd_status read_group(const struct file *f, const struct groups *g, c
                             i + 1, baseline);
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline / 256, &m.station[0]));
     KD_TRY(place_of(f, o, s, i, (uint32_t)baseline % 256, &m.station[1]));
-    /* Julian date; count_hours converts it. */
+    /* a Julian date at first, which count_hours converts */
     m.hour = kd_uvfits_parameter(g, group, &g->date[0]) + kd_uvfits_parameter(g, group, &g->date[1]);
     m.u = kd_uvfits_parameter(g, group, &g->u) * o->frequency_hz,
     m.v = kd_uvfits_parameter(g, group, &g->v) * o->frequency_hz;

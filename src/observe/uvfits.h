@@ -1,4 +1,4 @@
-/* Groups of a uvfits file, for its reader (uvfits.c) and for files with other visibilities (simulate.c). */
+/* The groups of a uvfits file. uvfits.c reads them, and simulate.c replaces their visibilities. */
 #ifndef KD_OBSERVE_UVFITS_H
 #define KD_OBSERVE_UVFITS_H
 
@@ -6,7 +6,7 @@
 
 struct hdu {
     const char *cards;
-    size_t n_cards, begin, size; /* begin, size: position and size of the HDU's data, without padding */
+    size_t n_cards, begin, size; /* begin, size: position and size, without padding, of the HDU's data */
 };
 
 struct file {
@@ -16,20 +16,21 @@ struct file {
 };
 
 struct parameter {
-    size_t at; /* index of the parameter among a group's parameters */
+    size_t at; /* index of the parameter in a group */
     double scale, zero;
     bool there;
 };
 
 struct groups {
     struct hdu hdu;
-    size_t n, parameters, elements, bytes; /* bytes: size of a number */
-    /* hands: number of polarizations in STOKES; hand_step: distance from one to the next, counted in numbers */
+    size_t n, parameters, elements, bytes; /* bytes: size of a number in bytes */
+    /* hands: number of polarizations in the axis STOKES. hand_step: distance between polarizations, counted in numbers
+     */
     size_t hands, hand_step;
     size_t channels, channel_step, ifs, if_step;
-    bool circular; /* true: the polarizations are RR and LL; false: the file has Stokes I */
+    bool circular; /* true if the polarizations are RR and LL, false if the file has Stokes I */
     struct parameter u, v, baseline, date[2];
-    double scale, zero; /* BSCALE and BZERO of the data */
+    double scale, zero; /* BSCALE and BZERO of the data: value = zero + scale * number */
 };
 
 /* Parses and checks the header of the groups. */

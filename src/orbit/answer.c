@@ -51,11 +51,11 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
     memcpy(to, all, sizeof all);
 }
 
-/* An output that stores its first failure, after which nothing more is written. */
+/* An output stream that stores its first failure. After a failure nothing more is written. */
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
-    int digits; /* significant digits of numbers; 0: all */
+    int digits; /* significant digits of numbers; 0 means all digits */
 };
 
 static void put(struct text *t, const char *s)
@@ -72,7 +72,7 @@ static void number(struct text *t, double value, const char *otherwise)
     put(t, isfinite(value) ? text : otherwise);
 }
 
-/* Writes "name":value, preceded by a comma unless it is the first member of its object. */
+/* Writes the member "name":value. A comma precedes it, except for the first member of an object. */
 static void member(struct text *t, const char *name, double value)
 {
     if (t->status)
@@ -143,14 +143,14 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* A circle has no periastron. For a circle the formula would give the advance of its smallest oscillation, which is
- * infinite at the ISCO. */
+/* Advance of the periastron. It is undefined for a circle, which has no periastron: the formula would give the advance
+ * of the circle's smallest oscillation, which is infinite at the ISCO. */
 static double periastron_advance(const struct kd_orbit_run *run)
 {
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;
 }
 
-/* Advance per radial period. An orbit in the equatorial plane has no node. */
+/* Writes advances per radial period. An orbit in the equatorial plane has no node. */
 static void advances(struct text *t, const struct kd_orbit_run *run, double p)
 {
     double advance = periastron_advance(run);
@@ -206,7 +206,7 @@ static void head(struct text *t, const struct kd_orbit_run *run)
 
 static void drift(struct text *t, const struct kd_orbit_run *run)
 {
-    open(t, "drift"); /* L is a parameter of the equations and does not drift */
+    open(t, "drift"); /* the drift of E and Q only: L is a parameter of the equations and does not drift */
     member(t, "energy", run->worst.energy);
     member(t, "angular_momentum", 0);
     member(t, "carter", run->worst.carter);
@@ -216,7 +216,8 @@ static void drift(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* Difference between the end of the integrated path and the closed form: two independent methods. */
+/* Writes the difference between the end of the integrated path and that of the closed form, which are independent
+ * methods. */
 static void against_closed(struct text *t, const struct kd_orbit_run *run)
 {
     struct kd_orbit_place got = kd_orbit_path_place(&run->path),
@@ -305,7 +306,7 @@ static void csv_row(struct text *t, const double *values, int n)
     put(t, "\n");
 }
 
-/* Writes little-endian doubles on any machine. */
+/* Appends doubles in little-endian order, on any machine. */
 static void bytes(struct text *t, const double *values, int n)
 {
     for (int i = 0; i < n && !t->status; i++) {
@@ -414,7 +415,7 @@ static const char *const summary_names[SUMMARY] = { "fate",
                                                     "carter_drift",
                                                     "error_estimate" };
 
-/* fate: 0 bound, 1 plunge, 2 escape. */
+/* Numbers of a summary. The fate is 0 for bound, 1 for plunge, 2 for escape. */
 static void summary_of(const struct kd_orbit_run *run, double to[SUMMARY])
 {
     const struct kd_orbit *o = &run->orbit;
@@ -450,7 +451,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
                                                 runs[i].samples, 0, t->out);
         if (!t->status)
             t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
-        t->out->size -= !t->status; /* replaces the newline */
+        t->out->size -= !t->status; /* removes the last byte, a newline, if there was no failure */
     }
     put(t, "\n]}\n");
 }

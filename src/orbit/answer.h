@@ -1,6 +1,7 @@
 /* Writes the answers to requests for orbits. Pure; any thread.
  *
- * A document has a head (known before the first step), the series, and a result (from the integration):
+ * An answer has a head, which is known before the first step; the series; and a result, which follows from the
+ * integration:
  *
  *     JSON     {head, "series": {"columns": [...], "rows": [[...], ...]}, "result": {...}}; {"orbits": [...]} for
  *              many
@@ -19,24 +20,27 @@
 
 enum kd_orbit_format { KD_ORBIT_JSON, KD_ORBIT_NDJSON, KD_ORBIT_CSV, KD_ORBIT_NPY };
 
-/* Parts of the answer for one orbit, to be written in this order. */
+/* Write the parts of the answer for one orbit. Call them in this order. */
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format,
                                      struct kd_buffer *out);
-/* first: number of samples written before. */
+/* first: number of samples that were written before. */
 enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format,
                                        const struct kd_orbit_sample *samples, size_t n, size_t first,
                                        struct kd_buffer *out);
-enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out); /* NDJSON only */
+/* Writes the progress, only in NDJSON. */
+enum kd_status kd_orbit_answer_progress(const struct kd_orbit_run *run, struct kd_buffer *out);
 enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Writes the answer for many finished orbits; not for NDJSON. samples: run->samples of each orbit, or NULL. */
+/* Writes the answer for many finished orbits; not in NDJSON. samples: for each orbit its run->samples samples, or NULL.
+ */
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Name of a column of the series; NULL beyond the last. Without an observer a series has only the first ten columns. */
+/* Name of a column of the series; NULL if the index is beyond the last. Without an observer a series has only the first
+ * ten columns. */
 const char *kd_orbit_column(size_t index);
 
-/* The sentence with this index about an approximation; NULL beyond the last. */
+/* The sentence about an approximation with this index; NULL if the index is beyond the last. */
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index);
 
 #endif

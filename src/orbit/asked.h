@@ -8,24 +8,25 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* limit of samples of one orbit, and of the sum over many orbits */
+/* limit of the number of samples of one orbit, and of all orbits of a request together */
+#define KD_ORBIT_SAMPLES_MAX 200000u
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
-#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* words in the order of kd_orbit_case */
+#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* words, in the order of enum kd_orbit_case */
 #define KD_ORBIT_WAY_WORDS "yoshida6|rkn6|closed"
 enum kd_orbit_case { KD_CASE_MERCURY, KD_CASE_ZOOM_WHIRL, KD_CASE_PLUNGE, KD_CASE_ISCO, KD_CASE_SPHERICAL, KD_CASES };
 
 enum kd_orbit_way { KD_WAY_YOSHIDA6, KD_WAY_RKN6, KD_WAY_CLOSED, KD_WAYS };
-const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "closed" */
+const char *kd_orbit_way_name(enum kd_orbit_way way); /* The word for a method: "yoshida6", "rkn6" or "closed". */
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    /* NAN: as in the request. If the request does not give the parameter either, the spin is that of the named case,
-     * and all other parameters are 0 */
+    /* parameters of the hole; NAN: as in the request. If the request has none either, the spin is that of the named
+     * case, and other parameters are 0 */
     KD_HOLE_MEMBERS
     double p, e, inclination_deg;
-    double energy, momentum, carter, r; /* r: NAN if not given */
+    double energy, momentum, carter, r; /* constants of motion and radius; r is NAN if not given */
     bool outward;
     double place_r, theta_deg, phi_deg, v[3];
     enum kd_observer frame;
@@ -34,24 +35,28 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    /* NAN: not given. The parameter is then 0; a spin that is not given is that of the named case, if there is one */
+    /* parameters of the hole; NAN if not given. Such a parameter is 0, except that the spin is that of the named case,
+     * if there is one */
     KD_HOLE_MEMBERS
     double periods,
-        /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
+        /* Duration: number of radial periods (turns, if r is constant), or time t in M. At most one of the two is
+         * given, and the other is NAN. */
         time;
-    /* follow a plunging or escaping orbit to its end; otherwise such orbits, which have no periods, are errors */
+    /* true if a plunging or escaping orbit is followed to its end; otherwise such an orbit is an error, because it has
+     * no periods */
     bool or_end;
     double r_max; /* radius at which an escaping orbit ends; 100 by default */
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;
-    double mass_msun; /* mass for times in seconds; NAN: not given */
-    uint32_t steps;   /* steps per radial period */
-    uint32_t samples; /* 0: no series */
-    uint32_t digits;  /* significant digits of the series' numbers in text */
+    double mass_msun; /* mass by which times are converted to seconds; NAN if not given */
+    uint32_t steps;   /* number of steps per radial period */
+    uint32_t samples; /* number of samples of the series; 0: no series */
+    uint32_t digits;  /* in text: number of significant digits of the series' numbers */
     enum kd_orbit_way way;
-    bool series; /* for many orbits: whether to write their series */
+    bool series; /* for many orbits: true if the answer includes their series */
     struct kd_orbit_observer {
-        double r, inclination_deg, azimuth_deg; /* inclination_deg NAN: no observer */
+        /* place of the observer; inclination_deg is NAN if there is no observer */
+        double r, inclination_deg, azimuth_deg;
         enum kd_observer motion;
     } seen; /* the observer */
 };

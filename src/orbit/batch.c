@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#define FEW 64         /* orbits in a turn: some 10 ms if each lasts ten periods */
-#define STEPS 1000000u /* steps between two calls of stop */
+#define FEW 64         /* number of orbits that one slice computes; some 10 ms if each lasts ten periods */
+#define STEPS 1000000u /* number of steps between two calls of `stop` */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
 {

@@ -7,12 +7,12 @@
 #include <stdatomic.h>
 
 struct kd_orbit_batch {
-    /* results; read them only when the batch is done */
+    /* results, which may be read only when the batch is done */
     const struct kd_orbit_request *request;
     struct kd_orbit_run *runs;
-    struct kd_orbit_sample *samples; /* NULL without series */
+    struct kd_orbit_sample *samples; /* samples of all orbits; NULL if no series is requested */
     size_t n;
-    /* polled by the worker threads, unless it is NULL; if it returns true, the batch is abandoned */
+    /* function that worker threads poll, or NULL; if it returns true, the batch is abandoned */
     bool (*stop)(void *user);
     void *user;
     /* private */
@@ -21,15 +21,16 @@ struct kd_orbit_batch {
     struct kd_error error; /* error of the first orbit that failed; valid once the batch is done */
 };
 
-/* Solves every orbit, some microseconds each. The request must outlive the batch. */
+/* Makes a batch. Solves every orbit, which takes some microseconds each. The request must outlive the batch. */
 enum kd_status kd_orbit_batch_init(struct kd_orbit_batch *batch, const struct kd_orbit_request *request,
                                    struct kd_error *error);
 void kd_orbit_batch_finish(struct kd_orbit_batch *batch);
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request);
 
-/* Follows the next few orbits to their ends; false if none are left to begin. Any thread, several at once. */
+/* Follows the next few orbits to their ends. Returns false if no orbit is left to begin. Several threads may call this
+ * at once. */
 bool kd_orbit_batch_turn(struct kd_orbit_batch *batch);
-/* true when nothing is running and nothing more will be started */
+/* True when no orbit is being followed and none will be begun. */
 bool kd_orbit_batch_done(const struct kd_orbit_batch *batch);
 
 #endif

@@ -7,7 +7,8 @@
 
 double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
-/* Semi-major axis and eccentricity of Mercury from NASA's planetary fact sheet, GM of the Sun as IAU 2015 nominal. */
+/* Orbit of Mercury. Semi-major axis and eccentricity are from NASA's planetary fact sheet, and GM of the Sun is the
+ * nominal value of IAU 2015. */
 static struct kd_orbit_spec mercury(struct kd_hole_given given)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
@@ -27,11 +28,11 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, struct kd_hole
         return mercury(given);
     struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, KD_HOLE_FROM(&given) };
     const struct kd_hole hole = kd_hole_from(given);
-    if (!kd_hole_exists(&hole)) /* a hole that does not exist is refused later */
+    if (!kd_hole_exists(&hole)) /* a hole that cannot exist is refused later */
         return spec;
     switch (which) {
-    case KD_CASE_ZOOM_WHIRL: /* p exceeds the separatrix by 1e-4 of its value: several turns of whirl for each radial
-                                period */
+    /* p exceeds the separatrix by 1e-4 of its value, so that the orbit whirls several turns in each radial period */
+    case KD_CASE_ZOOM_WHIRL:
         spec.e = 0.8;
         spec.p = 1.0001 * kd_orbit_separatrix(&hole, spec.e, 1);
         return spec;

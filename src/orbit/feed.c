@@ -1,8 +1,8 @@
 #include "orbit/feed.h"
 
-#define STEPS 65536u          /* steps in a piece, which takes some 25 ms */
-#define SEEN 4                /* samples in a piece if there is an observer; it takes some 8 ms */
-#define STEPS_A_LINE 1000000u /* steps between lines of progress, which take some 0.4 s */
+#define STEPS 65536u          /* number of steps in a piece, which takes some 25 ms */
+#define SEEN 4                /* number of samples in a piece if there is an observer; the piece takes some 8 ms */
+#define STEPS_A_LINE 1000000u /* number of steps between two lines of progress, which takes some 0.4 s */
 
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error)

@@ -6,13 +6,13 @@
 #define CONSTANTS (1u << KD_ORBIT_CONSTANTS)
 #define STATE (1u << KD_ORBIT_STATE)
 #define CASE (1u << KD_ORBIT_CASE)
-/* Ranges that hold for every request, so that a schema can express them. Stricter limits, such as the horizon for the
- * given spin, are checked later. The horizon, at 1 + sqrt(1 - a^2), is further out than 1 M for any spin (Bardeen,
- * Press & Teukolsky 1972). */
+/* Schemas of numbers whose ranges hold for every request. Stricter limits, such as the horizon for the given spin, are
+ * checked later. For any spin the horizon, at 1 + sqrt(1 - a^2), is not within 1 M (Bardeen, Press & Teukolsky 1972).
+ */
 #define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
 _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
 
-/* The rows of the hole, for a request and for a single orbit. AT is the macro of the table. */
+/* The rows of the hole's parameters, which the request and a single orbit share. AT is the macro of the table. */
 #define HOLE \
     { .name = "spin", \
       .kind = KD_KIND_REAL, \
@@ -273,8 +273,8 @@ static const struct kd_row fields[] = {
 #undef AT
 };
 
-/* A duration has exactly one of its members; or_end is only for durations other than periods. An observer needs a
- * position. */
+/* Combinations that a request must not have. A duration must have exactly one of its members. or_end does not go with a
+ * duration in periods. An observer needs a position. */
 static const struct kd_document_not nots[] = {
     { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_"
                   "end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },

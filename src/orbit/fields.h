@@ -5,8 +5,9 @@
 #include "document/document.h"
 #include "orbit/asked.h"
 
-/* The member `of` of a row has a bit for each form of an orbit. */
-extern const struct kd_document kd_orbit_request_document; /* the whole request, of struct kd_orbit_params */
-extern const struct kd_document kd_orbit_document;         /* one orbit, of struct kd_orbit_spec */
+/* The documents of a request. The member `of` of a row has a bit for each form of an orbit. */
+/* the whole request, which fills a struct kd_orbit_params */
+extern const struct kd_document kd_orbit_request_document;
+extern const struct kd_document kd_orbit_document; /* one orbit, which fills a struct kd_orbit_spec */
 
 #endif

@@ -58,7 +58,7 @@ static enum kd_status mixed(const struct kd_orbit_spec *spec, const struct kd_ro
                           kd_orbit_document.rows[i].name, FORM_TEXTS);
 }
 
-/* The form that a field belongs to. */
+/* The form of an orbit to which a field belongs. */
 static enum kd_orbit_form form_of(const struct kd_row *row)
 {
     enum kd_orbit_form form = KD_ORBIT_SHAPE;
@@ -67,7 +67,7 @@ static enum kd_orbit_form form_of(const struct kd_row *row)
     return form;
 }
 
-/* Checks that an orbit is given in exactly one form, completely. */
+/* Checks that an orbit is complete in exactly one form. */
 static enum kd_status settle(struct kd_orbit_spec *spec, const char *pointer, struct kd_error *error)
 {
     const uint64_t seen = spec->seen;
@@ -152,7 +152,7 @@ done:
     return status;
 }
 
-/* Sets a field. "r" also means position.r, according to the orbit's form. */
+/* Sets a field of an orbit. "r" means position.r if the orbit's form has a position. */
 static enum kd_status set_field(struct kd_orbit_request *request, const struct kd_row *field, const char *text,
                                 const char *pointer, struct kd_error *error)
 {
@@ -231,11 +231,11 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     return KD_OK;
 }
 
-/* Error of a whirl due to rounding of the constants: 4 ulp times kd_orbit_whirl. */
+/* Error of a whirl that rounding of the constants of motion causes: 4 ulp times kd_orbit_whirl. */
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {
-    /* for an orbit given by p and e, the turning points are known exactly */
+    /* true if the turning points are not known exactly, as they are for an orbit given by p and e */
     bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE;
     return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
 }
@@ -280,7 +280,7 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
-/* Sets the parameters of the hole that the orbit does not give. The spin stays open where a named case may have its
+/* Sets the parameters of the hole that the orbit does not give. Does not set the spin where a named case may have its
  * own. */
 static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *params)
 {
@@ -293,7 +293,7 @@ static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *pa
 #undef INHERIT
 }
 
-/* True if an error about the hole concerns a parameter that the orbit takes from the request. */
+/* True if an error about the hole is about a parameter that the orbit takes from the request. */
 static bool is_of_request(const char *pointer, const struct kd_orbit_spec *spec)
 {
 #define OR_MORE(x, name, ...) || (!strcmp(pointer, "/" #name) && isnan(spec->name))

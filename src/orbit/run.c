@@ -8,13 +8,15 @@
 
 #include <math.h>
 
-#define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
+/* largest number of turns of an orbit that is followed to its end, as for a whirl next to an unstable circle */
+#define LONGEST_TURNS 1000
 #define DEFAULT_PERIODS 10
-/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search for an image */
+/* number of samples in a row without an image after which only every SEARCH_EVERY-th sample gets a full search for an
+ * image */
 #define SEARCHES 3
 #define SEARCH_EVERY 64
-/* The search for an orbit's end halves the step up to this many times. Each halving reduces the error by a factor of
- * 64, from about 1e-10 down to rounding. */
+/* Largest number of times that the search for an orbit's end halves the step. Each halving reduces the error by a
+ * factor of 64, from about 1e-10 down to rounding. */
 #define HALVINGS 6
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
@@ -23,7 +25,7 @@ const char *kd_orbit_end_name(enum kd_orbit_end end)
     return names[end];
 }
 
-/* Sets up the observer, and checks that it exists. */
+/* Makes the observer's view, and checks that the observer can exist. */
 static enum kd_status look(struct kd_orbit_run *run, struct kd_error *error)
 {
     const struct kd_orbit_observer *o = &run->params->seen;
@@ -75,7 +77,7 @@ enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
     return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
-/* Solves t(Mino time) = time by bisection; t is monotonic. */
+/* Finds the Mino time at which t(Mino time) = time, by bisection. t is monotonic. */
 static double mino_at(const struct kd_orbit_run *run, double time)
 {
     double low = 0, high = time / run->frequencies.mino_t + 2 * run->period;
@@ -91,22 +93,23 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* True if a step went where the constants of motion forbid: past a turning point, or back without reaching one.
- * Close to a whirl, a step that is too long does this. */
+/* True if a step has left the range that the constants of motion allow: it went past a turning point, or back without
+ * reaching one. This happens close to a whirl if the step is too long. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* true for NAN as well */
+    /* the negation makes this true for NAN as well */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer);
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* the search for the end is given up only after this many steps, which take about a second. Far out, the steps may
- * be so short that the path would never arrive */
+/* number of steps after which the search for the end is given up; they take about a second. Far out, steps may be so
+ * short that the path would never arrive */
 #define SEARCH_STEPS 5e6
 
-/* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
- * end of its time. Returns false if the path strays, or does not reach the requested end. */
+/* Finds the end of an unbound path by following it once in steps of h. The end is where the path reaches the horizon or
+ * r_max, or where its duration is over. Returns false if the path strays, or does not reach the requested end. */
 static bool find_end(struct kd_orbit_run *run, double h)
 {
     const struct kd_orbit *o = &run->orbit;
@@ -131,7 +134,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the path turned within the step; with E = 1 it comes from infinity */
+        /* the path turned within the step, or it comes from infinity with E = 1 */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -151,7 +154,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
            path.place[KD_PATH_W].value ==
-               run->start.w; /* if the body starts on an unstable circle, the path ends at its start */
+               run->start.w; /* a body that starts on an unstable circle has its end at its start */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
@@ -181,8 +184,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        /* For a whirl, an end that changes by less than 1e-9 is accurate enough. Steps are then tried up to this
-         * end, and infinity lies beyond it */
+        /* For a whirl the end is accurate enough if it changes by less than 1e-9. Steps are then tried up to this end,
+         * beyond which is infinity */
         found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
@@ -206,7 +209,7 @@ static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
     return status;
 }
 
-/* Divides the path into equal steps of at most run->h, a whole number a sample. */
+/* Divides the path into equal steps of at most run->h, with a whole number of steps for each sample. */
 static enum kd_status cut(struct kd_orbit_run *run, struct kd_error *error)
 {
     double pieces = run->samples ? run->samples - 1 : 1,
@@ -247,14 +250,15 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     enum kd_status status = cut(run, error);
     if (!status && !run->closed && !isnan(run->aim))
         status = find_end_again(run, error);
-    if (run->rounding > 1e-12) /* smaller errors are negligible */
+    if (run->rounding > 1e-12) /* smaller errors of rounding are negligible */
         run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
     double pace = sqrt(
-        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2, which one step across w cannot resolve */
+        /* t grows as 1/w^2, so one step must not cross a large part of w */
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0));
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(error, "/r_max",
                               "r_max is %g; it must be smaller, because this path whirls near an unstable circular "
@@ -315,7 +319,7 @@ static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)
     worst->binet = isnan(now.binet) ? NAN : fmax(worst->binet, fabs(now.binet));
 }
 
-/* Records the azimuth of a periastron: w grows up to it and falls after it. */
+/* Records the azimuth of a periastron, where w has its maximum. */
 static void note_periastron(struct kd_orbit_run *run)
 {
     struct kd_orbit_path at = kd_orbit_path_to_apsis(&run->path, -run->h);
@@ -339,7 +343,7 @@ static size_t advance_closed(struct kd_orbit_run *run, uint64_t steps, struct kd
     return n;
 }
 
-/* Takes the last step of an unbound path, to the end that was found with another step size. The end is less than half a
+/* Takes the last step of an unbound path to its end. The end was found with another step size, and is less than half a
  * step away. */
 static void step_to_the_end(struct kd_orbit_run *run)
 {

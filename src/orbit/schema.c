@@ -58,8 +58,8 @@ static void add_orbits(struct kd_json *json, const char *orbit)
 void kd_orbit_request_schema(struct kd_json *json, const char *name)
 {
     begin_object(json, name);
-    /* A request has either orbit or orbits. The schema does not use oneOf, which client generators would turn into a
-     * union instead of a class with the fields. */
+    /* A request must have exactly one of orbit and orbits. The schema does not express this by oneOf, because client
+     * generators would make a union of it instead of a class with the fields. */
     kd_schema_text(json, "if", "{\"required\":[\"orbits\"]}");
     kd_schema_text(json, "then",
                    "{\"not\":{\"anyOf\":[{\"required\":[\"orbit\"]},{\"required\":[\"seen\"],\"properties\":{\"seen\":{"

@@ -17,8 +17,8 @@ double kd_orbit_pace(const struct kd_orbit *o)
     return sqrt(fastest);
 }
 
-/* Search for a step: the number of steps is doubled until the error estimate from the last doubling, for the
- * method's order, is within the tolerance. */
+/* State of the search for a step. The search doubles the number of steps until the estimated error is within the
+ * tolerance. The estimate follows from the change at the last doubling and the order of the method. */
 struct trial {
     double span, longest, last, step;
     uint32_t n;
@@ -29,10 +29,11 @@ struct trial {
 static struct trial begin(const struct kd_orbit_run *run)
 {
     struct trial t = { .last = INFINITY };
-    /* t is infinite at the horizon, so the trial stops a little before it. */
+    /* the trial stops a little before the horizon, where t is infinite */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* On an unbound path the step has an upper limit, for two reasons. The motion becomes fast at the end of a fall,
-     * which the start of the span does not show. And a whirl magnifies errors that are not due to the step. */
+    /* On an unbound path the step has an upper limit, for two reasons. First, the motion becomes fast at the end of a
+     * fall, and the start of the span does not show this. Second, a whirl magnifies errors that do not come from the
+     * step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -45,8 +46,9 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
     return isnan(a->t) || isnan(a->r) ? INFINITY : d;
 }
 
-/* For a method of order 6, the error that remains is 1/63 of the change of the result when the step is halved. The
- * search stops when rounding, or a whirl that magnifies rounding, prevents further gain. */
+/* Judges a trial, for a method of order 6. If halving the step changes the result by some amount, 1/63 of that amount
+ * is the remaining error. The search stops when rounding, or a whirl that magnifies rounding, prevents a further gain.
+ */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
     double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);
@@ -68,7 +70,7 @@ static void judge(struct kd_orbit_run *run, struct trial *t)
     t->step = t->span / t->n;
 }
 
-/* Follows each trial over its span in times * n steps. */
+/* Follows each trial over its span. times: number of steps as a multiple of the trial's n. */
 static void follow(struct kd_orbit_run *const *runs, struct trial *trials, int n, uint32_t times)
 {
     struct kd_orbit_path paths[KD_ORBIT_LANES];

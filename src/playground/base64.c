@@ -14,7 +14,8 @@ bool kd_base64_read(void *to, size_t n, const char *text)
     const size_t length = strlen(text);
     struct base64_decode_ctx decoder;
     size_t read = n;
-    /* If = characters were missing, the decoder would write more bytes than `to` has room for. */
+    /* Refuses text of another length, and text without the = characters that n bytes need: the decoder would write more
+     * bytes than `to` has room for. */
     if (length != kd_base64_length(n) || (n % 3 && text[length - 1] != '=') || (n % 3 == 1 && text[length - 2] != '='))
         return false;
     base64_decode_init(&decoder);

@@ -5,12 +5,12 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Length of the text for n bytes, without the NUL. */
+/* Length of the text for n bytes, without the final NUL. */
 static inline size_t kd_base64_length(size_t n) { return (n + 2) / 3 * 4; }
 
 /* Writes kd_base64_length(n) characters and a NUL. */
 void kd_base64_write(char *to, const void *data, size_t n);
-/* Decodes exactly n bytes; false if the text is not Base64 of n bytes. */
+/* Decodes exactly n bytes. Returns false if the text is not the Base64 of n bytes. */
 bool kd_base64_read(void *to, size_t n, const char *text);
 
 #endif

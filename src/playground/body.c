@@ -7,7 +7,7 @@ struct kd_playground_spherical kd_playground_spherical(const double x[3], const 
     const double rho = hypot(x[0], x[1]), r = hypot(rho, x[2]);
     const double c = rho > 0 ? x[0] / rho : 1, s = rho > 0 ? x[1] / rho : 0;
     const double cos_theta = r > 0 ? x[2] / r : 1, sin_theta = r > 0 ? rho / r : 0;
-    const double outwards = c * v[0] + s * v[1]; /* component away from the axis */
+    const double outwards = c * v[0] + s * v[1]; /* component perpendicular to the axis, away from it */
     return (struct kd_playground_spherical) {
         .r = r,
         .theta = atan2(rho, x[2]),

@@ -1,7 +1,7 @@
 /* A body of the playground: a sphere with a mass. Plain values; any thread.
  *
- * Units: G = c = 1 and the hole's mass M = 1. So lengths and times are in M, masses in masses of the hole, speeds in
- * c. Positions are x, y, z with the hole at the origin and its axis along z.
+ * Units: G = c = 1 and the hole's mass M = 1. So lengths and times are in M, masses in units of the hole's mass, and
+ * speeds in c. Positions are x, y, z with the hole at the origin and its axis along z.
  *
  * Pictures use r, theta, phi of x, y, z as Boyer-Lindquist coordinates (kd_playground_spherical). That is exact with
  * gravity "kerr", which moves bodies in these coordinates. The potential of Paczynski and Wiita has no metric. Its
@@ -19,20 +19,21 @@ enum { KD_PLAYGROUND_NAME = 32 };
              of doubles */
 
 struct kd_playground_body {
-    uint32_t id; /* number of the body, from 1; never reused */
+    uint32_t id; /* number of the body, from 1 on; never used again */
     char name[KD_PLAYGROUND_NAME];
     double mass, radius, temperature_k;
     double x[3], v[3];
-    /* State of a tidal pass (tide.h): mass and radius of the body before the pass, the largest r_t/r so far, the
-     * fraction of the mass that is lost, and the fraction that events have reported. whole_mass is 0 outside a pass. */
+    /* State of a tidal pass (tide.h). whole_mass, whole_radius: mass and radius of the body before the pass; whole_mass
+     * is 0 outside a pass. depth: largest r_t/r so far. shed: fraction of the mass that is lost. told: fraction that
+     * events have reported. */
     double whole_mass, whole_radius, depth, shed, told;
-    uint32_t source;    /* number of the source of this body's debris, valid during a pass */
+    uint32_t source;    /* during a pass: number of the source of this body's debris */
     double radiated;    /* orbital energy lost to gravitational waves */
-    bool told_inspiral; /* an event has reported that the body is inside 6 M */
+    bool told_inspiral; /* true if an event has reported that the body is inside 6 M */
 };
 
-/* Spherical coordinates of a position, phi from -pi to pi, and velocity components along these directions. On the
- * axis phi is 0. */
+/* Spherical coordinates of a position, with phi from -pi to pi, and components of the velocity along r, theta and phi.
+ * On the axis phi is 0. */
 struct kd_playground_spherical { double r, theta, phi, v[3]; };
 struct kd_playground_spherical kd_playground_spherical(const double x[3], const double v[3]);
 

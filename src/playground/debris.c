@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WORK 1e6        /* maximum number of sub-steps of all pieces in one stride, */
-#define WORK_A_PIECE 16 /* or this number for each piece, whichever is larger */
+#define WORK 1e6        /* largest number of sub-steps of all pieces together in one stride, */
+#define WORK_A_PIECE 16 /* or the same number for each piece, if that is more in total */
 
 static void give_up(struct kd_playground_debris *debris, struct kd_debris_piece *piece)
 {
@@ -27,10 +27,10 @@ enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t ca
     if (capacity == debris->capacity && debris->pieces)
         return KD_OK;
     struct kd_debris_piece *pieces =
-        calloc(capacity + 1, sizeof *pieces); /* one more, so that the allocation is never empty */
+        calloc(capacity + 1, sizeof *pieces); /* one more than the capacity, so that the allocation is never empty */
     if (!pieces)
         return kd_error_set(error, KD_ENOMEM, "no memory for %u pieces of debris", capacity);
-    /* Copies from the newest piece, just before `next`, backwards. */
+    /* Copies pieces backwards from the newest one, which is just before `next`. */
     const uint32_t kept = debris->alive < capacity ? debris->alive : capacity;
     for (uint32_t i = 0, left = kept; i < debris->used; i++) {
         kd_pause_every(i, 65536);
@@ -86,7 +86,7 @@ static void directions(const double x[3], const double v[3], double e[3][3])
     for (int k = 0; k < 3; k++)
         across[k] = v[k] - out * e[0][k];
     length = kd_playground_radius(across);
-    if (!(length > 1e-9)) { /* for radial motion any tangential direction will do */
+    if (!(length > 1e-9)) { /* motion is radial, so any tangential direction will do */
         const int k = fabs(e[0][2]) < 0.9 ? 2 : 0;
         for (int i = 0; i < 3; i++)
             across[i] = (i == k) - e[0][k] * e[0][i];
@@ -111,7 +111,7 @@ static struct kd_debris_piece piece_of(const struct kd_debris_shed *shed, double
     }
     const double r = kd_playground_radius(x);
     if (!(r > KD_PLAYGROUND_CAPTURE) ||
-        !(speed2 > 0)) /* torn off inside the hole, or at rest: start at the body's own position */
+        !(speed2 > 0)) /* a body inside the hole, or at rest: pieces start at its own position */
         memcpy(x, shed->x, sizeof x);
     const double wanted = 2 * (energy - kd_playground_potential(kd_playground_radius(x)));
     const double factor = speed2 > 0 ? sqrt(fmin(fmax(wanted, 0), 1) / speed2) : 1;
@@ -129,7 +129,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
     directions(shed->x, shed->v, e);
     const double energy = kd_playground_specific(shed->x, shed->v);
     for (uint32_t i = 0; i < shed->n; i++) {
-        /* stratified sampling: one in each of n equal intervals */
+        /* stratified sampling: one number in each of n equal intervals */
         const double u = 2 * (i + kd_random_drawn(shed->seed, shed->random)) / shed->n - 1;
         source->pieces++;
         if (!debris->capacity) {
@@ -148,7 +148,7 @@ void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source
     debris->haste += shed->n / (r - KD_PLAYGROUND_HORIZON);
 }
 
-/* Counts a piece that has come back, at time `since` after its source began. */
+/* Counts a piece that has come back. since: time since the piece's source began. */
 static void count(struct kd_debris_source *source, struct kd_debris_piece *piece, double since)
 {
     const double bin = floor(KD_DEBRIS_PER_DECADE * log10(fmax(since, 1)));
@@ -179,7 +179,7 @@ static void move(struct motion *m, double h)
         m->v[k] /= sqrt(speed2);
 }
 
-/* Moves one piece on by dt, starting `since` after its source began. False: it is gone. */
+/* Moves one piece by dt. since: time since the piece's source began. Returns false if the piece is gone. */
 static bool advance(struct kd_debris_piece *piece, struct kd_debris_source *source, double since, double dt,
                     double safety, bool feeds, double *radius)
 {
@@ -256,8 +256,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* False if a bin is only partly covered in time. This is true of the bin that contains the present, and of the first
- * bin in which a piece came back. The last bin is unbounded. */
+/* True unless the bin is only partly covered in time, as are the bin that contains the present and the first bin in
+ * which a piece came back. The last bin has no upper end. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

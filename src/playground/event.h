@@ -9,7 +9,7 @@
 
 enum { KD_PLAYGROUND_EVENTS = 4096 };
 
-/* X(NAME, word, description of the event and of its energy) */
+/* Kinds of events: X(NAME, word, description of the event and of its energy) */
 #define KD_PLAYGROUND_EVENT_KINDS(X) \
     X(MERGER, merger, "two bodies have merged; energy: the energy that became heat") \
     X(SHEDDING, shedding, \
@@ -26,26 +26,26 @@ enum kd_playground_event_kind { KD_PLAYGROUND_EVENT_KINDS(KD_EVENT_) KD_PLAYGROU
 const char *kd_playground_event_word(enum kd_playground_event_kind kind);
 
 struct kd_playground_event {
-    uint64_t number; /* from 1 */
+    uint64_t number; /* number of the event, from 1 on */
     double t;
     enum kd_playground_event_kind kind;
-    uint32_t body, other; /* ids of the bodies; other is 0 if there is only one */
+    uint32_t body, other; /* ids of the bodies; `other` is 0 if there is only one */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
-    /* Merger: the masses of the two bodies before the merger. Shedding and disruption: the lost mass, and the mass
-     * that is left. */
+    /* For a merger: masses of the two bodies before it. For shedding and disruption: the lost mass, and the mass that
+     * is left. */
     double mass, other_mass;
     double r, energy;
-    /* Shedding and disruption: tidal radius r_t, and half width of the debris' energies. NAN for other events. */
+    /* For shedding and disruption: tidal radius r_t, and half width of the debris' energies. NAN for other events. */
     double tidal_radius, spread;
 };
 
 struct kd_playground_events {
-    struct kd_playground_event ring[KD_PLAYGROUND_EVENTS]; /* number k at k % KD_PLAYGROUND_EVENTS */
-    uint64_t last;                                         /* number of the newest; 0: none yet */
+    struct kd_playground_event ring[KD_PLAYGROUND_EVENTS]; /* event number k is at index k % KD_PLAYGROUND_EVENTS */
+    uint64_t last;                                         /* number of the newest event; 0 if there was none yet */
 };
 
 void kd_playground_event_add(struct kd_playground_events *events, struct kd_playground_event event);
-/* The event of this number; NULL if it is no longer kept, or has not happened yet. */
+/* The event with this number; NULL if it is no longer kept, or has not happened yet. */
 const struct kd_playground_event *kd_playground_event_at(const struct kd_playground_events *events, uint64_t number);
 void kd_playground_event_json(const struct kd_playground_event *event, struct kd_json *json, const char *name);
 

@@ -45,9 +45,9 @@ enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct 
     return KD_OK;
 }
 
-/* Position and velocity from E, L and the rates in Mino time. With S = Sigma, D = Delta, gamma = (E - omega
- * L)/alpha, the observer of zero angular momentum measures v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta'
- * S^(1/2)/(S gamma), v_phi = L/(g_phiphi^(1/2) gamma), with r' = dr/dlambda. */
+/* Sets position and velocity from E, L and the rates in Mino time. With S = Sigma, D = Delta and gamma = (E - omega
+ * L)/alpha, the observer of zero angular momentum measures v_r = r' (S/D)^(1/2)/(S gamma), v_theta = theta' S^(1/2)/(S
+ * gamma) and v_phi = L/(g_phiphi^(1/2) gamma), where r' = dr/dlambda. */
 static void tell(const struct kd_playground_geodesic *g, const struct kd_orbit_path *path, double x[3], double v[3])
 {
     const struct kd_orbit *o = &path->orbit;
@@ -84,7 +84,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
         kd_orbit_path_step(&next, g->h);
         const double then = kd_orbit_path_place(&next).t;
         if (isnan(then) || !(next.place[KD_PATH_W].value > 0) ||
-            g->from_t + then > t) /* the step would pass the horizon, infinity or t */
+            g->from_t + then > t) /* true if the step would pass the horizon, infinity or t */
             return true;
         if (!*steps)
             return false;
@@ -94,7 +94,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
 
 void kd_geodesic_back(struct kd_playground_geodesic *g) { g->path = g->begun; }
 
-/* From dt/dlambda = A (E - omega L)/Delta. */
+/* Number of steps per coordinate time, from dt/dlambda = A (E - omega L)/Delta. */
 double kd_geodesic_pace(const struct kd_playground_geodesic *g)
 {
     const struct kd_orbit *o = &g->path.orbit;

@@ -10,8 +10,9 @@
 
 #include <math.h>
 
-#define KD_PLAYGROUND_HORIZON 2.   /* r_s */
-#define KD_PLAYGROUND_CAPTURE 2.05 /* bodies within it are captured: sub-steps never reach the horizon */
+#define KD_PLAYGROUND_HORIZON 2. /* r_s */
+/* radius within which bodies are captured, so that sub-steps never reach the horizon */
+#define KD_PLAYGROUND_CAPTURE 2.05
 
 static inline double kd_playground_radius(const double x[3]) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
 
@@ -23,10 +24,10 @@ static inline double kd_playground_pull(double r)
     return -1 / (r * (r - KD_PLAYGROUND_HORIZON) * (r - KD_PLAYGROUND_HORIZON));
 }
 
-/* Speed of a circular orbit: v^2 = r/(r - 2)^2. */
+/* Speed v of a circular orbit, with v^2 = r/(r - 2)^2. */
 static inline double kd_playground_circular(double r) { return sqrt(r) / (r - KD_PLAYGROUND_HORIZON); }
 
-/* Energy per mass in the hole's field alone. */
+/* Energy per mass of a body in the hole's field, without mutual gravity. */
 static inline double kd_playground_specific(const double x[3], const double v[3])
 {
     return 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + kd_playground_potential(kd_playground_radius(x));

@@ -20,7 +20,7 @@ static struct kd_playground_event event_of(const struct kd_playground *p, enum k
     return event;
 }
 
-/* True if two bodies touched within the last h; their motion is approximated as straight. */
+/* True if two bodies touched within the last h, with their motion approximated as straight. */
 static bool touched(const struct kd_playground_body *a, const struct kd_playground_body *b, double h)
 {
     double x[3], v[3], xv = 0, vv = 0, d2 = 0;
@@ -37,7 +37,8 @@ static bool touched(const struct kd_playground_body *a, const struct kd_playgrou
     return a->radius > 0 && b->radius > 0 && d2 <= reach * reach;
 }
 
-/* Merges b into a: masses, momenta and volumes add, at the centre of mass. The heavier one keeps its name and id. */
+/* Merges b into a. Masses, momenta and volumes are added, and the merged body is at the centre of mass. It keeps the
+ * name and id of the heavier one. */
 static void join(struct kd_playground *p, struct kd_playground_body *a, struct kd_playground_body *b)
 {
     const bool other = b->mass > a->mass;
@@ -69,7 +70,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
 {
     double before = 0;
     size_t joined = 0;
-    /* marks bodies that have merged in this step, whose earlier position has no meaning any more */
+    /* marks bodies that have merged in this step; the position of such a body before the step has no meaning */
     bool grown[KD_PLAYGROUND_BODIES_MAX] = { false };
     for (size_t i = 0; i < p->n; i++) {
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Compiled for several vector widths; the widest available one is selected when the program starts. Sums and their
- * order are the same in all versions, and there is no fused arithmetic. Sanitizers are not initialised yet when the
- * selection runs, so such builds have one version. */
+/* Compiles a function for several vector widths. The widest one that the processor has is selected when the program
+ * starts. Sums and their order are the same in all versions, and there is no fused arithmetic. Sanitizers are not
+ * initialised yet when the selection runs, so builds with sanitizers have one version. */
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -75,7 +75,7 @@ WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t
     double *const out[SUMS] = { p->ax, p->ay, p->az, p->potential, p->rate, p->near };
     for (size_t s = 0; s < SUMS; s++)
         for (size_t l = 0; l < LANES; l++)
-            out[s][first + l] = sum[s][l] - (s == NEAR); /* the count of near bodies excludes the body itself */
+            out[s][first + l] = sum[s][l] - (s == NEAR); /* does not count the body itself among the near bodies */
 }
 
 void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,
@@ -88,7 +88,7 @@ void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct
         mutual->mass[i] = bodies[i].mass;
         mutual->radius[i] = bodies[i].radius;
     }
-    for (size_t i = n; i % LANES; i++) /* unused lanes */
+    for (size_t i = n; i % LANES; i++) /* fills unused lanes */
         mutual->x[i] = mutual->y[i] = mutual->z[i] = mutual->mass[i] = mutual->radius[i] = 0;
     for (size_t first = 0; first < n; first += LANES) {
         kd_pause_every(first, 16 * LANES);

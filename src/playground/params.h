@@ -1,5 +1,5 @@
-/* Settings of a playground, one row each. The struct, its defaults, JSON and --set in both directions, and the
- * schema are generated from the rows. Any thread. */
+/* Settings of a playground, with one row for each. The struct, its defaults, reading and writing of JSON and of --set,
+ * and the schema are generated from the rows. Any thread. */
 #ifndef KD_PLAYGROUND_PARAMS_H
 #define KD_PLAYGROUND_PARAMS_H
 
@@ -15,8 +15,8 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_BODIES_MAX 4096u
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
-/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help). gravity
- * and the hole cannot be changed once a playground is made. */
+/* Rows of settings: REAL or INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default,
+ * "a|b", help). gravity and the hole cannot be changed after a playground is made. */
 #define KD_PLAYGROUND_HOLE_(REAL, name, member, least, most, shown, unit, card, what, bound, ...) \
     REAL(name, 0, least, 0.999, what " in " unit " (gravity \"kerr\" only); the bodies are neutral; " bound)
 #define KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) \
@@ -58,15 +58,17 @@ struct kd_playground_params {
 #undef KD_WORD_
 };
 
-extern const struct kd_document kd_playground_settings; /* of struct kd_playground_params */
-/* the fields of struct kd_playground_body that are numbers */
+extern const struct kd_document kd_playground_settings; /* document of struct kd_playground_params */
+/* document of the fields of struct kd_playground_body that are numbers */
 extern const struct kd_document kd_playground_body_fields;
 
 struct kd_playground_params kd_playground_defaults(void);
-/* The hole of gravity "kerr", for use as an argument. The value lives until the end of the enclosing block. */
+/* The hole of gravity "kerr", for use as a function's argument. The value lives until the end of the enclosing block.
+ */
 #define kd_playground_hole(params) ((const struct kd_hole[]) { kd_hole_in(params) })
 
 bool kd_playground_params_same(const struct kd_playground_params *a,
-                               const struct kd_playground_params *b); /* compares all settings; in playground.c */
+                               /* compares all settings; defined in playground.c */
+                               const struct kd_playground_params *b);
 
 #endif

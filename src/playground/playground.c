@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR 1e6 /* M: maximum initial distance of a body */
+#define FAR 1e6 /* largest initial distance of a body, M */
 
 static bool kerr(const struct kd_playground *p) { return p->params.gravity == KD_GRAVITY_KERR; }
 
@@ -95,8 +95,8 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
     return KD_OK;
 }
 
-/* Call before the list of bodies, or a body, is changed from outside. Records the energy, unless an earlier change has
- * done so. */
+/* Records the energy, unless an earlier change has done so. Call it before the list of bodies, or a body, is changed
+ * from outside. */
 static void disturb(struct kd_playground *p)
 {
     if (!p->disturbed && !kerr(p))
@@ -104,7 +104,7 @@ static void disturb(struct kd_playground *p)
     p->disturbed = true;
 }
 
-/* Call after a change from outside: the next step starts afresh. */
+/* Makes the next step start afresh. Call it after a change from outside. */
 static void begin_anew(struct kd_playground *p)
 {
     p->forced = false;
@@ -217,7 +217,8 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/" #name, "%s cannot change after a playground is made", #name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
-    struct kd_playground_params looks = *params; /* only settings of the appearance may differ */
+    /* copy of the settings, in which only settings of the appearance may differ */
+    struct kd_playground_params looks = *params;
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
     looks.albedo = p->params.albedo;

@@ -38,19 +38,20 @@
 
 #include "base/error.h"
 
-#define KD_PLAYGROUND_TIME 1e12 /* M: end of time, also for scenes */
+#define KD_PLAYGROUND_TIME 1e12 /* end of time, M; also for scenes */
 
-/* Sums of all that has been removed from the motion of the bodies since the beginning. With these sums, energy and
- * momentum balance. */
+/* Sums of everything that has been removed from the motion of the bodies since the beginning. With these sums, energy
+ * and momentum are conserved. */
 struct kd_playground_spent {
-    double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
-    double merged;                                               /* energy that became heat in mergers of bodies */
-    double capped;                                               /* energy removed because speeds are capped at c */
-    double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
+    /* mass, energy and angular momentum of captured bodies */
+    double captured_mass, captured_energy, captured_momentum[3];
+    double merged;                 /* energy that became heat in mergers of bodies */
+    double capped;                 /* energy removed because speeds are capped at c */
+    double capped_momentum[3];     /* momentum removed by this cap, where the pull of other bodies dominated */
     double radiated;               /* energy lost to gravitational waves */
-    double torn_mass, torn_energy; /* converted to debris */
-    /* Energy added or removed from outside: by adding, removing or changing bodies, and by recomputing the mutual
-     * potential. */
+    double torn_mass, torn_energy; /* mass and energy that became debris */
+    /* Energy that was added or removed from outside: by adding, removing or changing bodies, and by recomputing the
+     * mutual potential. */
     double given;
 };
 
@@ -58,95 +59,101 @@ struct kd_playground {
     struct kd_playground_params params;
     double t;
     uint64_t steps;
-    struct kd_playground_body *bodies; /* n bodies, in order of creation */
+    struct kd_playground_body *bodies; /* the n bodies, in order of creation */
     size_t n, room;
     uint32_t last_id;
-    double rate;     /* 1/h of the previous step; 0: the next step is chosen without regard to a previous one */
-    uint64_t random; /* number of random numbers drawn */
-    bool held;       /* the loss to waves was limited to a tenth of the attraction at least once */
+    double rate;     /* 1/h of the previous step; 0 if the next step is chosen without regard to a previous one */
+    uint64_t random; /* number of random numbers drawn so far */
+    bool held;       /* true if the loss to waves was limited, at least once, to a tenth of the attraction */
     struct kd_playground_spent spent;
     struct kd_playground_events events;
     struct kd_playground_debris debris;
     struct kd_playground_series series;
-    struct kd_playground_geodesic *geodesics; /* gravity "kerr": one for each body */
-    /* The members from here on are derived from those above. */
+    struct kd_playground_geodesic *geodesics; /* for gravity "kerr": a geodesic for each body */
+    /* The members from here on follow from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
-    double before; /* energy before the first change of bodies from outside since the last step */
+    double before; /* energy before the first change from outside since the last step */
     double aim;
-    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. When
-     * all have reached this time, the bodies move. */
+    /* For gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. When
+     * all have reached it, the bodies move. */
     size_t approached;
     bool forced;                  /* true if `mutual` is up to date */
-    double margin;                /* margin that `mutual` was computed with */
-    double last_row[KD_SERIES_N]; /* row of the series before the current step */
+    double margin;                /* margin with which `mutual` was computed */
+    double last_row[KD_SERIES_N]; /* row of the series from before the current step */
 };
 
 enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out,
                                     struct kd_error *error);
-void kd_playground_destroy(struct kd_playground *p); /* accepts NULL */
+void kd_playground_destroy(struct kd_playground *p); /* p may be NULL */
 
-/* Adds a body. KD_EINVAL with the pointer "/position", "/velocity", ... if such a body cannot exist; KD_ETOOBIG: there
- * are already KD_PLAYGROUND_BODIES_MAX. body->id is ignored; an empty name becomes "body ID". id may be NULL. */
+/* Adds a body. Returns KD_EINVAL with the pointer "/position", "/velocity" and so on if such a body cannot exist, or
+ * KD_ETOOBIG if there are already KD_PLAYGROUND_BODIES_MAX bodies. body->id is ignored. An empty name becomes "body
+ * ID". id may be NULL. */
 enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id,
                                  struct kd_error *error);
 /* returns NULL if there is no such body */
 struct kd_playground_body *kd_playground_find(struct kd_playground *p, uint32_t id);
 enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct kd_error *error);
-/* Replaces the body with this id; the id stays. */
+/* Replaces the body with this id. The id stays the same. */
 enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body,
                                     struct kd_error *error);
-/* Changes the settings. KD_EINVAL if gravity or the hole would change. */
+/* Changes the settings. Returns KD_EINVAL if gravity or the hole would change. */
 enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params,
                                  struct kd_error *error);
 
 struct kd_playground_progress {
-    double asked, done; /* in M */
+    double asked, done; /* requested time and time done, M */
     uint32_t steps;
-    bool slowed; /* the budget was spent before the time was over, or the time ends beyond KD_PLAYGROUND_TIME */
-    bool ended;  /* KD_PLAYGROUND_TIME is reached, and the motion has stopped */
+    /* true if the budget was spent before the time was over, or if the time ends beyond KD_PLAYGROUND_TIME */
+    bool slowed;
+    bool ended; /* true if KD_PLAYGROUND_TIME is reached, so that the motion has stopped */
 };
 
-/* Advances by `time` > 0, or less if the budget of sub-steps is spent before. */
+/* Advances by `time` > 0, or by less if the budget of sub-steps is spent earlier. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
-/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is
- * identical to that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr".
- * A sub-step with a million pieces of debris takes tens of milliseconds. */
+/* State of an advance in pieces, which allows other work in between: call begin, then go_on until it returns false. The
+ * result is identical to that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity
+ * "kerr". A sub-step with a million pieces of debris takes tens of milliseconds. */
 struct kd_playground_run {
     double begin, end;
-    double stride; /* gravity "kerr": time between updates of the bodies */
+    double stride; /* for gravity "kerr": time between updates of the bodies */
     uint64_t first;
-    /* Remaining sub-steps, or steps of geodesics with gravity "kerr". The caller may lower it after
+    /* Remaining sub-steps or, for gravity "kerr", remaining steps of geodesics. The caller may lower this after
      * kd_playground_begin. */
     uint32_t left;
-    bool stuck; /* the sub-step is below the resolution of t, so time cannot advance */
+    bool stuck; /* true if the sub-step is below the resolution of t, so that time cannot advance */
 };
 void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run);
 bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
-                         uint32_t pieces); /* runs up to `pieces` pieces; false: finished */
+                         /* runs up to `pieces` pieces; returns false when the advance is finished */
+                         uint32_t pieces);
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p,
                                                      const struct kd_playground_run *run);
 
-/* True if mutual gravity has driven speeds above c. Capping them removed momentum that no other body received. This
- * happens if bodies fall from rest and touch at a distance below 2 (m1 + m2). */
+/* True if mutual gravity has accelerated bodies above c. Capping their speeds removed momentum that no other body
+ * received. This happens if bodies fall from rest and touch at a distance below 2 (m1 + m2). */
 bool kd_playground_lost_momentum(const struct kd_playground *p);
 
-/* Sums over the bodies at present. */
+/* Sums over all bodies at present. */
 struct kd_playground_totals {
-    double mass, kinetic, potential, mutual; /* potential: in the hole's field; mutual: of the pairs */
+    /* masses and energies; potential: energy in the hole's field; mutual: energy of the pairs */
+    double mass, kinetic, potential, mutual;
     double energy, momentum[3], angular[3];
-    double h_plus, h_cross; /* strain times distance, seen along +z: the second derivative of the quadrupole */
+    /* gravitational-wave strain times distance, seen along +z, from the second derivative of the quadrupole */
+    double h_plus, h_cross;
     double separation,
-        /* Both are of the closest bound pair of bodies or, if there is none, of the innermost body and the hole; NAN
-         * without bodies. */
+        /* Distance and wave frequency of the closest bound pair of bodies or, if there is no such pair, of the
+         * innermost body and the hole; NAN without bodies. */
         wave_frequency;
 };
 struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
 
 /* Writes the present values as a row of `series`. */
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
-/* Restarts the series at the present time. span: its length in M; 0, the default: open-ended (series.h). */
+/* Restarts the series at the present time. span: its length in M, or 0 (the default) for an open-ended series
+ * (series.h). */
 void kd_playground_series_begin(struct kd_playground *p, double span);
 
 /* Writes the approximations that are in use, as an array of strings. */

@@ -14,7 +14,8 @@ static enum kd_status add(struct kd_playground *p, const char *name, struct kd_p
     return kd_playground_add(p, &body, NULL, error);
 }
 
-/* A circular orbit of radius r at the phase phi, in a plane inclined about the line of nodes at azimuth `node`. */
+/* A body on a circular orbit of radius r at the phase phi. The plane of the orbit is inclined about the line of nodes,
+ * whose azimuth is `node`. */
 static struct kd_playground_body circling(double r, double phi, double inclination, double node)
 {
     const double v = kd_playground_circular(r), c = cos(inclination), s = sin(inclination);
@@ -26,7 +27,7 @@ static struct kd_playground_body circling(double r, double phi, double inclinati
     };
 }
 
-/* A parabolic orbit at distance r, whose pericentre is the tidal radius over 1.2. */
+/* A body on a parabolic orbit, at the distance r. The pericentre is the tidal radius divided by 1.2. */
 static struct kd_playground_body passing(double mass, double radius, double temperature_k, double r)
 {
     const double pericentre = radius * cbrt(1 / mass) / 1.2, l = pericentre * sqrt(2 / (pericentre - 2)),
@@ -38,10 +39,10 @@ static struct kd_playground_body passing(double mass, double radius, double temp
                                          .v = { -sqrt(2 / (r - 2) - across * across), across, 0 } };
 }
 
-/* The Sun and a hole of a million solar masses: the tidal radius is 47 M. */
+/* Settings for the Sun and a hole of a million solar masses. The tidal radius is 47 M. */
 static void disruption_settings(struct kd_playground_params *s)
 {
-    s->h_max = 5; /* at this step there are twenty pictures a second if time runs at 100 M a second */
+    s->h_max = 5; /* gives twenty pictures a second if time runs at 100 M a second */
     s->debris_per_body = 50000;
 }
 
@@ -50,8 +51,9 @@ static enum kd_status disruption(struct kd_playground *p, struct kd_error *error
     return add(p, "star", passing(1e-6, 0.47, 5800, 300), error);
 }
 
-/* A white dwarf of one solar mass and 5500 km radius, on a parabola as deep as the star's, and a hole of a thousand
- * solar masses. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is 78 s. */
+/* Settings for a white dwarf of one solar mass and 5500 km radius, and a hole of a thousand solar masses. The parabola
+ * is as deep as the star's. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is
+ * 78 s. */
 static void dwarf_settings(struct kd_playground_params *s)
 {
     s->h_max = 5;
@@ -90,7 +92,7 @@ static enum kd_status planets(struct kd_playground *p, struct kd_error *error)
     }
     if (status)
         return status;
-    /* A moon of the planet that was added last, at the circular speed of the softened pull. */
+    /* A moon of the planet that was added last. Its speed is that of a circular orbit in the softened field. */
     const double d = 3, e2 = p->params.softening * p->params.softening, v = d * sqrt(body.mass / pow(d * d + e2, 1.5));
     const double out = kd_playground_radius(body.x), speed = kd_playground_radius(body.v);
     struct kd_playground_body moon = { .mass = 1e-7, .radius = 0.1, .temperature_k = 2500 };
@@ -142,7 +144,9 @@ static enum kd_status emri(struct kd_playground *p, struct kd_error *error)
     struct kd_playground_body body = circling(12, 0, 0, 0);
     body.mass = 1e-3;
     body.radius =
-        0.3; /* large enough to be visible; it has no other effect, because nothing can be touched and tides are off */
+        /* large enough to be visible; the radius has no other effect, because the bodies touch nothing and tides
+         * are off */
+        0.3;
     body.temperature_k = 12000;
     return add(p, "companion", body, error);
 }
@@ -160,7 +164,8 @@ static enum kd_status swarm(struct kd_playground *p, struct kd_error *error)
     enum kd_status status = KD_OK;
     uint64_t *n = &p->random;
     for (int i = 0; !status && i < 400; i++) {
-        double drawn[5]; /* drawn one by one, because the order of arguments in a call is unspecified */
+        /* drawn one by one, because C does not specify the order in which arguments of a call are evaluated */
+        double drawn[5];
         for (int k = 0; k < 5; k++)
             drawn[k] = kd_random_drawn(p->params.seed, n);
         struct kd_playground_body body =
@@ -182,8 +187,9 @@ static void eight_settings(struct kd_playground_params *s)
     s->softening = 0.001;
 }
 
-/* The figure-eight orbit: A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; initial values by C. Simo. Scaled
- * to masses m = 0.1 and a length of 100 M, at rest 1e5 M from the hole, whose tide there is 1e-8 of their pull. */
+/* The figure-eight orbit: A. Chenciner & R. Montgomery 2000, Ann. Math. 152, 881; initial values by C. Simo. It is
+ * scaled to masses m = 0.1 and a length of 100 M. It is at rest 1e5 M from the hole, whose tide there is 1e-8 of the
+ * bodies' mutual attraction. */
 static enum kd_status eight(struct kd_playground *p, struct kd_error *error)
 {
     static const double x[3][2] = { { 0.97000436, -0.24308753 }, { -0.97000436, 0.24308753 }, { 0, 0 } };

@@ -6,17 +6,17 @@
 
 struct kd_playground_preset {
     const char *name, *title;
-    double rate;             /* suggested speed in M a second */
-    double centre[3], reach; /* centre of a suggested view, and half the view's width, in M */
+    double rate;             /* suggested speed of time, M a second */
+    double centre[3], reach; /* suggested view: its centre, and half its width, M */
     void (*settings)(struct kd_playground_params *params);
-    /* Adds the preset's bodies to an empty playground, and sets the preset's settings or other ones. */
+    /* Adds the preset's bodies to an empty playground. The playground has the preset's settings or other ones. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
-    const char *scene; /* JSON of a suitable scene, as a difference from the default one */
+    const char *scene; /* JSON of a suitable scene, with the members that differ from the default scene */
 };
 extern const struct kd_playground_preset kd_playground_presets[];
 extern const size_t kd_playground_n_presets;
 
-/* NULL: there is none of this name. */
+/* The preset with this name; NULL if there is none. */
 const struct kd_playground_preset *kd_playground_preset_of(const char *name);
 
 #endif

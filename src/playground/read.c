@@ -14,8 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PIECES 16384   /* pieces of debris copied at a time: a millisecond */
-#define VALUES 4000000 /* maximum values of a document: 4 096 bodies with some fifty each, and the sources' counts */
+#define PIECES 16384 /* number of pieces of debris that are copied at a time, which takes a millisecond */
+/* largest number of values in a document: some fifty for each of 4 096 bodies, and the sources' counts */
+#define VALUES 4000000
 
 static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer,
                                 struct kd_error *error)
@@ -26,8 +27,8 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* Reads the given fields; all other fields keep their values. id: receives the member "id"; NULL if the body may not
- * have this member. grown: factor by which mass and radius may exceed the limits of a new body, because merged
+/* Reads the given fields of a body. All other fields keep their values. id: receives the member "id"; NULL if the body
+ * must not have this member. grown: factor by which mass and radius may exceed the limits of a new body, because merged
  * bodies may be larger. */
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
@@ -61,7 +62,7 @@ done:
     return status;
 }
 
-/* The pointer of an error about a body is that of its place in the list. */
+/* Completes an error about a body with the body's place in the list, as the error's pointer. */
 static enum kd_status in_list(enum kd_status status, const char *pointer, struct kd_error *error)
 {
     if (status && error && strncmp(error->pointer, pointer, strlen(pointer)))
@@ -103,7 +104,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
             return kd_error_field(error, pointer, "there is no body with this id, or it no longer exists");
         body = *old;
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
-            body.whole_mass = 0; /* the changed body counts as another star, whose tidal pass starts afresh */
+            body.whole_mass = 0; /* treats the changed body as another star, whose tidal pass starts afresh */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
@@ -125,7 +126,8 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is not an array", name);
     if (list && what != ADD &&
-        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* ADD: names the first body beyond the limit */
+        /* the pointer of the error names the first body beyond the limit */
+        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX)
         return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
@@ -139,7 +141,7 @@ done:
     return status;
 }
 
-/* Reads the given settings. Members are errors unless they are settings or listed in `others`. */
+/* Reads the given settings. A member that is neither a setting nor listed in `others` is an error. */
 static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *others,
                                     struct kd_error *error)
 {
@@ -176,7 +178,7 @@ static enum kd_status read_preset(const cJSON *tree, const struct kd_playground_
         clipped);
 }
 
-/* Bodies of a snapshot may be farther out than new ones, because they have moved. */
+/* Reads the bodies of a snapshot. They may be farther out than new bodies, because they have moved. */
 static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -221,7 +223,7 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     if (preset)
         KD_TRY(preset->fill(p, error));
     KD_TRY(state ? take_bodies(p, bodies, error) : do_list(p, ADD, bodies, "bodies", error));
-    p->disturbed = false; /* cleared, because the energy balance starts at this time */
+    p->disturbed = false; /* cleared, because the sums for the energy balance start at this time */
     if (state)
         KD_TRY(kd_state_read(p, state, error));
 done:
@@ -241,7 +243,7 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
     return status;
 }
 
-/* A copy that can be modified and discarded. */
+/* Makes a copy that can be modified and discarded. */
 static enum kd_status copy(const struct kd_playground *from, struct kd_playground **out, struct kd_error *error)
 {
     struct kd_playground *p = malloc(sizeof *p);
@@ -258,7 +260,7 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
         kd_playground_destroy(p);
         return kd_error_set(error, KD_ENOMEM, "no memory for a copy of the playground");
     }
-    if (from->n) /* the array of an empty list is NULL */
+    if (from->n) /* an empty list has NULL as its array */
         memcpy(p->bodies, from->bodies, from->n * sizeof *p->bodies);
     if (from->geodesics)
         memcpy(p->geodesics, from->geodesics, from->n * sizeof *p->geodesics);

@@ -21,7 +21,7 @@ void kd_series_begin(struct kd_playground_series *series, const double now[KD_SE
     series->n = 1;
 }
 
-/* The last row of an open-ended series is never used, so that a file has room for the present row. */
+/* Time of the next row. An open-ended series does not use its last row, so that a file has room for the present row. */
 double kd_series_next(const struct kd_playground_series *series)
 {
     if (series->span > 0 && series->n == KD_SERIES_ROWS)
@@ -39,8 +39,8 @@ static void thin(struct kd_playground_series *series)
     series->interval *= 2;
 }
 
-/* Interpolates linearly between two rows. Counts keep the value of the first row. If the number of bodies changes,
- * all values keep it. */
+/* Interpolates linearly between two rows. Counts are those of the first row. If the number of bodies differs, all
+ * values are those of the first row. */
 static void between(const double before[KD_SERIES_N], const double now[KD_SERIES_N], double t, double row[KD_SERIES_N])
 {
     const double share = (t - before[KD_SERIES_t]) / (now[KD_SERIES_t] - before[KD_SERIES_t]);

@@ -11,9 +11,10 @@
 #include <string.h>
 
 #define LIMB 0.6    /* the default of bodies.limb_darkening */
-#define PER_CELL 6. /* minimum mean number of pieces in occupied cells */
+#define PER_CELL 6. /* least mean number of pieces in occupied cells */
 
-/* Factor from a Newtonian velocity to the velocity relative to the observer of zero angular momentum (show.h). */
+/* Factor that converts a Newtonian velocity to the velocity relative to the observer of zero angular momentum (show.h).
+ */
 static double slower(const double v[3], bool approximate)
 {
     const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -50,13 +51,15 @@ void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_sh
         float column = cells * atan2f(y, x);
         column += column < 0 ? turn : 0;
         const bool somewhere = pieces[i].stage != KD_DEBRIS_FREE && across2 > 0 && r2 > 1 &&
-                               r2 < 1e30f; /* inside the hole, or beyond the rows of the coarsest grid */
+                               /* false for a piece inside the hole, or beyond the rows of the coarsest grid */
+                               r2 < 1e30f;
         out[i] = somewhere ? (struct kd_show_place) { 0.5f * cells * logf(r2), column < turn ? column : 0 }
                            : (struct kd_show_place) { NAN, NAN };
     }
 }
 
-/* Occupied cells of the coarsest grid: their number, and their columns and rows. */
+/* Occupied cells of the coarsest grid. They are described by their number, and by the columns and rows that have such
+ * cells. */
 struct taken {
     size_t cells, pieces;
     int32_t rows[2];
@@ -67,7 +70,7 @@ enum {
     COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST,
     LOW = -1024,
     HIGH = 3072
-}; /* range of the rows that can occur, for any valid r */
+}; /* the rows are all that can occur for a valid r */
 
 static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
 {
@@ -90,7 +93,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     return seen;
 }
 
-/* The range of columns that remains when the widest empty gap is left out: first column and count. */
+/* Finds the range of columns outside the widest empty gap. The range has a first column and a count. */
 static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
 {
     uint32_t widest = 0, run = 0;
@@ -102,7 +105,7 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
             *first = (i + 1) % KD_SHOW_TURN_LEAST;
         }
     }
-    if (widest < 2) /* a gap this narrow is ignored */
+    if (widest < 2) /* ignores a gap that is this narrow */
         *first = widest = 0;
     *count = KD_SHOW_TURN_LEAST - widest;
 }
@@ -134,7 +137,7 @@ void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynami
     };
 }
 
-/* Deposits on two nodes of one row. */
+/* Adds a piece's weight and momentum to two nodes of one row. */
 static void add(float *left, float *right, float share, float worth, float vr, float vphi)
 {
     float *const to[2] = { left, right }, shares[2] = { worth * (1 - share), worth * share };
@@ -145,7 +148,7 @@ static void add(float *left, float *right, float share, float worth, float vr, f
     }
 }
 
-/* Velocity relative to the observer of zero angular momentum, along e_r and e_phi. */
+/* Velocity of a piece along e_r and e_phi, relative to the observer of zero angular momentum. */
 static void seen_velocity(const struct kd_debris_piece *p, bool approximate, float out[2])
 {
     const float x[3] = { (float)p->x[0], (float)p->x[1], (float)p->x[2] },
@@ -259,10 +262,10 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
     return KD_OK;
 }
 
-/* The radius that contains nine pieces in ten, to one per cent; 0 if there are none. */
+/* The radius within which nine pieces in ten are, to one per cent; 0 if there are no pieces. */
 static double most_within(const struct kd_playground_debris *debris)
 {
-    enum { BINS = 4200 }; /* in ln r, up to 1e18 M */
+    enum { BINS = 4200 }; /* number of bins in ln r, up to 1e18 M */
     uint32_t count[BINS] = { 0 }, all = 0, sum = 0;
     for (uint32_t i = 0; i < debris->used; i++) {
         const float bin = 100 * logf((float)kd_playground_radius(debris->pieces[i].x));

@@ -1,5 +1,5 @@
-/* Makes the bodies (scene/dynamic_bodies.h) that show a playground's present state in a picture of a scene. Call on the
- * thread that owns the playground.
+/* Makes the bodies (scene/dynamic_bodies.h) that show a playground's present state in a picture of a scene. Call these
+ * functions on the thread that owns the playground.
  *
  * A body's r, theta, phi are used as Boyer-Lindquist coordinates (body.h). With gravity "kerr" this is exact, and
  * velocities are relative to the observer of zero angular momentum. In the potential of Paczynski and Wiita a body has
@@ -7,8 +7,8 @@
  * u^2) relative to the same observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in Schwarzschild's
  * metric, and u^2 = r/(r - 2)^2 here.
  *
- * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). A piece has
- * the weight of its share of its body's mass. The share follows from the number of pieces into which the body split
+ * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). The weight
+ * of a piece is its share of its body's mass. This share follows from the number of pieces into which the body split
  * when the piece was torn off. */
 #ifndef KD_PLAYGROUND_SHOW_H
 #define KD_PLAYGROUND_SHOW_H
@@ -18,16 +18,16 @@
 #include "scene/dynamic_bodies.h"
 #include "scene/scene.h"
 
-/* The caller gets a reference to *out. */
+/* Makes the bodies. The caller gets a reference to *out. */
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
                                   struct kd_error *error);
 
-/* Like kd_playground_show, and stores the hash of the playground's state, which files of pictures contain. */
+/* Calls kd_playground_show, and also stores the hash of the playground's state, which files of pictures contain. */
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 
-/* KD_EINVAL if the scene cannot show this playground. With gravity "kerr" the scene must have the same hole as the
- * playground. Without it, the hole's parameters other than the spin must be 0. */
+/* Checks that the scene can show this playground; otherwise returns KD_EINVAL. With gravity "kerr" the scene must have
+ * the same hole as the playground. With the other gravity the hole's parameters other than the spin must be 0. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error);
 
@@ -39,13 +39,15 @@ enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scen
 enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p,
                                          struct kd_scene *out, struct kd_error *error);
 
-/* Private to src/playground, and for tests. These functions compute the places of pieces in (ln r, azimuth), choose
- * the grid (at most KD_SHOW_NODES nodes), and distribute the pieces over the nodes. worth: weight of a piece of each
- * source, in bodies. */
+/* The functions from here on are private to src/playground, and for tests. They compute the places of pieces in (ln r,
+ * azimuth), choose the grid (at most KD_SHOW_NODES nodes), and distribute the pieces over the nodes. worth: weight of a
+ * piece of each source, in bodies. */
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };
 struct kd_show_place {
     float row, column;
-}; /* in cells of KD_SHOW_TURN_MOST a turn; column is counted from 0; NAN: the piece is not in the picture */
+    /* place in cells of a grid with KD_SHOW_TURN_MOST columns a turn; column is counted from 0, and is NAN if the
+     * piece is not in the picture */
+};
 void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out);
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out);
 void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,

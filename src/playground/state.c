@@ -11,11 +11,12 @@
 #include <string.h>
 
 #define MOST 1e300
-#define LAST (KD_PLAYGROUND_TIME + 1e6) /* M: the last sub-step may exceed the end of time */
-#define OLD_PIECE ((size_t)32)          /* bytes of a piece in snapshots of an older version */
-#define WHOLE 9e15                      /* integers up to this are exact as doubles */
+/* latest time of a snapshot, M; the last sub-step may exceed the end of time */
+#define LAST (KD_PLAYGROUND_TIME + 1e6)
+#define OLD_PIECE ((size_t)32) /* size of a piece in snapshots of an older version, bytes */
+#define WHOLE 9e15             /* integers up to this size are exact as doubles */
 
-/* Tables of named numbers: of the playground, its debris, a body, a source. */
+/* Tables of named numbers, for the playground, for its debris, for a body and for a source. */
 struct number {
     const char *name;
     size_t offset;
@@ -194,7 +195,7 @@ done:
     return status;
 }
 
-/* Recounts the pieces and checks them; false if one is impossible. */
+/* Counts the pieces again and checks them. Returns false if a piece is impossible. */
 static bool look(struct kd_playground_debris *d)
 {
     double haste = 0;
@@ -213,7 +214,7 @@ static bool look(struct kd_playground_debris *d)
         haste += 1 / (r - KD_PLAYGROUND_HORIZON);
         d->alive++;
     }
-    /* `haste` determines the sub-steps of all pieces in one stride, so a wrong value is refused */
+    /* A wrong value of `haste` is refused, because it determines the sub-steps of all pieces in a stride. */
     return !d->alive || (d->haste > 0.5 * haste && d->haste < 1e9);
 }
 
@@ -284,7 +285,7 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
     KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST,
                                  cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
     const cJSON *capped = cJSON_GetObjectItemCaseSensitive(gone, "capped_momentum");
-    if (capped) /* snapshots of older versions lack it */
+    if (capped) /* snapshots of older versions do not have this number */
         KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "and bodies differ in length", error));

@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 
 enum kd_status kd_state_write(const struct kd_playground *p, struct kd_json *json);
-/* p must already have the settings and the bodies of the snapshot. */
+/* Reads the state. p must already have the settings and the bodies of the snapshot. */
 enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct kd_error *error);
 
 #endif

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define PIECE 256 /* steps of geodesics in a piece, a microsecond or two each */
+#define PIECE 256 /* number of steps of geodesics in a piece; each takes a microsecond or two */
 #define CLEARANCE \
     1.25 /* ratio of the rate aimed at to the minimum, because the rate of single steps oscillates about the rate that \
           * the positions require */
@@ -24,7 +24,7 @@ static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;
     double rate = 1 / s->h_max;
-    /* the step must not exceed the longest stride of the debris */
+    /* makes the step no longer than the longest stride of the debris */
     rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety));
     for (size_t i = 0; i < p->n; i++) {
         const double r = kd_playground_radius(p->bodies[i].x);
@@ -34,8 +34,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole has caused the
- * speed, the cap does not affect the balance of momentum, because the hole's momentum is not counted. */
+/* Caps the speed at 1. others: true if the attraction of other bodies exceeds that of the hole. If the hole has caused
+ * the speed, the cap does not affect the balance of momentum, because the hole's momentum is not counted. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -48,7 +48,7 @@ static void hold(struct kd_playground *p, struct kd_playground_body *body, bool 
         p->spent.capped_momentum[k] += body->mass * (v - 1) * body->v[k];
 }
 
-/* Applies the acceleration a for share * time, and accounts for the energy lost. */
+/* Applies the acceleration a for the time share * time, and adds the lost energy to the sums. */
 static void lose(struct kd_playground *p, struct kd_playground_body *body, const double a[3], double share, double time)
 {
     double work = 0;
@@ -61,7 +61,8 @@ static void lose(struct kd_playground *p, struct kd_playground_body *body, const
     p->spent.radiated -= work;
 }
 
-/* Applies gravitational-wave losses over `time`: of bound pairs with each other, of all other bodies with the hole. */
+/* Applies gravitational-wave losses over `time`. Bodies of bound pairs radiate with each other, and all other bodies
+ * with the hole. */
 static void radiate(struct kd_playground *p, double time)
 {
     size_t partners[KD_WAVE_PAIRS_MAX];
@@ -106,8 +107,8 @@ static void kick(struct kd_playground *p, double time)
     }
 }
 
-/* Moves all bodies on straight lines. Bodies that pass the hole's capture radius are not attracted by the hole any
- * more; they are captured after the step. */
+/* Moves all bodies on straight lines. The hole no longer attracts bodies that pass its capture radius; they are
+ * captured after the step. */
 static void drift(struct kd_playground *p, double time)
 {
     for (size_t i = 0; i < p->n; i++)
@@ -127,7 +128,8 @@ static double step(struct kd_playground *p)
     p->rate = rate;
     kick(p, 0.5 * h);
     drift(p, h);
-    p->margin = fmin(2 * h, 1e6); /* margin for bodies that touch within the step and are apart again at its end */
+    /* the margin includes bodies that touch within the step and are apart again at its end */
+    p->margin = fmin(2 * h, 1e6);
     kd_playground_force(p);
     kick(p, 0.5 * h);
     p->t += h;
@@ -135,7 +137,7 @@ static double step(struct kd_playground *p)
     return h;
 }
 
-/* Gravity "kerr": moves the bodies and the playground to p->aim, which all geodesics have approached. */
+/* For gravity "kerr": moves the bodies and the playground to the time p->aim, which all geodesics have approached. */
 static void arrive(struct kd_playground *p)
 {
     p->t = p->aim;
@@ -201,7 +203,7 @@ void kd_playground_series_begin(struct kd_playground *p, double span)
     kd_series_begin(&p->series, row, span, p->params.h_max);
 }
 
-/* Saves the present row if a step of at most `longest` could pass the time of the next row of the series. */
+/* Saves the present row if a step of length `longest` could pass the time of the next row of the series. */
 static void record_before(struct kd_playground *p, double longest)
 {
     p->last_row[KD_SERIES_t] = NAN;
@@ -218,7 +220,7 @@ static void record(struct kd_playground *p)
     kd_series_add(&p->series, p->last_row, now);
 }
 
-/* Moves debris to t, once every h_max, or more often if a piece is near the hole. */
+/* Moves debris to the present time, once every h_max, or more often if a piece is near the hole. */
 static void advance_debris(struct kd_playground *p)
 {
     struct kd_playground_debris *debris = &p->debris;
@@ -267,7 +269,7 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
-    /* the current stride leads beyond the end of this run, so the bodies return to the stride's start */
+    /* moves the bodies back to the start of the stride, because the stride leads beyond the end of this run */
     for (size_t i = 0; i < p->n; i++)
         kd_geodesic_back(&p->geodesics[i]);
     p->aim = p->t;
@@ -279,7 +281,7 @@ static bool is_over(const struct kd_playground *p, const struct kd_playground_ru
            p->steps - run->first >= p->params.budget;
 }
 
-/* Longest stride for half of the remaining budget, estimated from the present motion. */
+/* Longest stride that takes half of the remaining budget, estimated from the present motion. */
 static double affordable(const struct kd_playground *p, uint32_t left)
 {
     double pace = 0;
@@ -288,14 +290,15 @@ static double affordable(const struct kd_playground *p, uint32_t left)
     return pace > 0 ? 0.5 * left / pace : INFINITY;
 }
 
-/* Gravity "kerr": moves by strides. The geodesics approach the stride's end one after the other; then all bodies move.
- * If the budget is spent before that, no body has moved, and the next run continues towards the same end. */
+/* For gravity "kerr": advances by strides. The geodesics approach the end of the stride one after the other; then all
+ * bodies move. If the budget is spent before that, no body has moved, and the next run continues towards the same end.
+ */
 static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
 {
     if (!(p->aim > p->t)) {
         p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
-        run->stuck = !(p->aim > p->t); /* true: the step is below the resolution of t */
+        run->stuck = !(p->aim > p->t); /* true if the step is below the resolution of t */
     }
     const uint32_t piece = run->left < PIECE ? run->left : PIECE;
     uint32_t left = piece;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 0.1 /* further fraction of its mass that a star must shed before the next event */
+#define TOLD 0.1 /* further fraction of its mass that a star must lose before the next event */
 
 double kd_tide_radius(double mass, double radius) { return radius * cbrt(1 / mass); }
 
@@ -39,7 +39,8 @@ static void begin(struct kd_playground *p, struct kd_playground_body *body)
 
 static void end(struct kd_playground_body *body)
 {
-    body->radius = fmax(body->whole_radius * cbrt(1 - body->shed), KD_PLAYGROUND_LEAST); /* at constant density */
+    /* radius of the remaining mass, at constant density */
+    body->radius = fmax(body->whole_radius * cbrt(1 - body->shed), KD_PLAYGROUND_LEAST);
     body->whole_mass = 0;
 }
 
@@ -58,12 +59,12 @@ static void tell(struct kd_playground *p, const struct kd_playground_body *body,
     kd_playground_event_add(&p->events, event);
 }
 
-/* Sheds the mass that is lost at the present depth. Returns true if nothing is left of the star. */
+/* Removes the mass that is lost at the present depth. Returns true if nothing is left of the star. */
 static bool shed(struct kd_playground *p, struct kd_playground_body *body)
 {
     struct kd_debris_source *source = kd_debris_source_of(&p->debris, body->source);
     const double share = kd_tide_share(body->depth);
-    if (!source) { /* newer sources have replaced its source: this pass ends, and another may begin */
+    if (!source) { /* newer sources have replaced this star's source, so this pass ends, and another may begin */
         end(body);
         return false;
     }
@@ -71,7 +72,8 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
                    torn = (uint32_t)floor(share * all);
     const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST
                              ? all
-                             : torn; /* the star sheds everything if the rest would be below a body's minimum mass */
+                             /* the star loses everything if the rest would be below the least mass of a body */
+                             : torn;
     if (due <= source->pieces)
         return false;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);

@@ -16,13 +16,14 @@ static void add_body(struct kd_playground_totals *sum, const struct kd_playgroun
         sum->momentum[k] += m * v[k];
         sum->angular[k] += m * (x[l] * v[n] - x[n] * v[l]);
     }
-    /* h+ = I''_xx - I''_yy, hx = 2 I''_xy, I''_ij = sum m (2 v_i v_j + x_i a_j + a_i x_j): M. Maggiore 2008, eq.
-     * 3.72. */
+    /* The strain is h+ = I''_xx - I''_yy and hx = 2 I''_xy, with I''_ij = sum of m (2 v_i v_j + x_i a_j + a_i x_j) (M.
+     * Maggiore 2008, eq. 3.72). */
     sum->h_plus += 2 * m * (v[0] * v[0] - v[1] * v[1] + x[0] * a[0] - x[1] * a[1]);
     sum->h_cross += 2 * m * (2 * v[0] * v[1] + x[0] * a[1] + x[1] * a[0]);
 }
 
-/* Sets the distance, and the frequency of the waves, which is twice the orbital frequency: |x v'|/(pi d^2). */
+/* Sets the distance of a pair, and the frequency of its waves, which is twice the orbital frequency: |x v'|/(pi d^2).
+ */
 static void pair(struct kd_playground_totals *sum, const double x[3], const double v[3])
 {
     const double c[3] = { x[1] * v[2] - x[2] * v[1], x[2] * v[0] - x[0] * v[2], x[0] * v[1] - x[1] * v[0] },

@@ -5,10 +5,10 @@
 
 #include <math.h>
 
-/* maximum of the ratio of the loss to the attraction: beyond it there is no orbit, and the formula might add energy */
+/* largest ratio of the loss to the attraction; beyond it there is no orbit, and the formula might add energy */
 #define MOST 0.1
 
-/* The reaction for m1 m2 = product and the total mass m. */
+/* The reaction of a pair. product: m1 m2. m: total mass. */
 static bool react(double product, double m, const double x[3], const double v[3], double amplification, double a[3])
 {
     const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);

@@ -31,7 +31,7 @@
 #define KD_QUANTITY_IN(in) ((const struct parameters *)(const void *)(in))
 #define KD_QUANTITY_OUT(out) ((struct outputs *)(void *)(out))
 
-/* The file must define `evaluate`, and the NULL-terminated lists `sources` and `approximations`. */
+/* Defines a quantity. The file must define `evaluate`, and the NULL-terminated lists `sources` and `approximations`. */
 #define KD_QUANTITY(symbol, name_, summary_, ...) \
     const struct kd_quantity kd_quantity_##symbol = { .name = name_, \
                                                       .summary = summary_, \
@@ -52,9 +52,9 @@
     P(name, .unit = unit_, .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = what "; light and matter are neutral; " bound)
 #define KD_PARAMETER_HOLE_MORE(P) KD_HOLE_MORE(KD_DEFINE_MORE, P)
-/* The hole given by these parameters, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
+/* The hole with these parameters, for use as a function's argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
 #define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_in(p) })
-/* Outputs right, up and inwards: the direction from which light reaches an observer at a finite radius. */
+/* Rows of outputs right, up and inwards: the direction from which light reaches an observer at a finite radius. */
 #define KD_RESULTS_DIRECTION(O) \
     O(right, .unit = "1", \
       .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
@@ -84,7 +84,7 @@
       .help = "energy per mass of the falling observer; rest: the energy that follows from infall_from") \
     P(infall_momentum, .unit = "M", .typed = "0", .least = -1e4, .most = 1e4, \
       .help = "angular momentum per mass of the falling observer")
-/* The motion given by KD_PARAMETER_OBSERVER. */
+/* The motion of the observer with the parameters of KD_PARAMETER_OBSERVER. */
 #define KD_QUANTITY_MOTION(p) \
     (struct kd_observer_motion) \
     { \
@@ -93,13 +93,14 @@
         .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum, \
     }
 
-/* Returns KD_EINVAL at "/name". The message is "r is 1.2, " followed by the reason. The reason should end with the
- * allowed values. */
+/* Returns KD_EINVAL at "/name". The message is "r is 1.2, " followed by the reason, which should end with the allowed
+ * values. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* Checks that r is at or outside the hole's horizon; otherwise returns the error of kd_quantity_outside. */
 enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error);
-/* Checks that the observer exists. Otherwise returns an error whose pointer is /observer_r or the invalid number. */
+/* Checks that the observer exists. Otherwise returns an error, whose pointer is /observer_r or the name of the invalid
+ * number. */
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error);
 

@@ -58,7 +58,7 @@ static const char *const approximations[] = {
     NULL,
 };
 
-/* total: the mass in solar masses; unit_s, unit_m: one M of it in seconds and in metres */
+/* total: mass in solar masses. unit_s, unit_m: M for this mass, in seconds and in metres */
 struct orbit { double total, unit_s, unit_m; };
 
 static struct orbit orbit_of(const struct parameters *p)

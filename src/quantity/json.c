@@ -20,7 +20,7 @@ static void write_axis(struct kd_writer *w, const struct kd_row *p, const struct
     kd_write(w, "]");
 }
 
-/* If several parameters are ranges: writes their names and counts, in the order of nesting. */
+/* Writes, if several parameters are ranges, their names and counts in the order of nesting. */
 static void write_shape(struct kd_writer *w, const struct kd_quantity_request *request)
 {
     const struct kd_quantity *quantity = request->quantity;
@@ -41,7 +41,7 @@ static void write_shape(struct kd_writer *w, const struct kd_quantity_request *r
     kd_write(w, "%s", ranges > 1 ? "]" : "");
 }
 
-/* True if the output depends on a range. */
+/* True if the output depends on a parameter that is a range. */
 static bool varies(const struct kd_quantity_request *request, const struct kd_output *output)
 {
     for (size_t i = 0; i < request->quantity->n_parameters; i++)
@@ -80,8 +80,8 @@ static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
         kd_write(w, "%s\"%s\":\"%s\"", separator, quantity->outputs[i].name, quantity->outputs[i].unit);
 }
 
-/* The value of a parameter; for a range, one of its values that is not 0. Returns 0 if the quantity does not have
- * the parameter. */
+/* The value of a parameter. For a range it is one of the values that is not 0. If the quantity does not have the
+ * parameter, it is 0. */
 static double value_of(const struct kd_quantity_request *request, const char *name)
 {
     for (size_t i = 0; i < request->quantity->n_parameters; i++) {

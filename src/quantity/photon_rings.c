@@ -54,7 +54,8 @@ static double width_of(const struct memory *m, const struct parameters *p, int o
                            kd_lensing_edge(&m->curve, &m->point, order, m->inner));
 }
 
-/* From below the plane the picture is mirrored vertically, so the inclination is reflected to above. */
+/* For an observer below the plane the picture is mirrored vertically, so the observer is reflected to above the plane.
+ */
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
     const double horizon = KD_QUANTITY_HOLE(p)->outer;

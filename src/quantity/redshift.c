@@ -69,7 +69,7 @@ static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
 {
     const struct kd_hole *hole = KD_QUANTITY_HOLE(p);
-    /* an observer below the plane is reflected to above the plane; only beta then differs */
+    /* An observer below the plane is reflected to above the plane, which changes only the sign of beta. */
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180);
     if (i > 89.9 && i < 90.1)
         return kd_quantity_outside(

@@ -1,4 +1,4 @@
-/* Parses requests for quantities: a parameter's value or range from text. */
+/* Reads requests for quantities: the value or range of a parameter, from text. */
 #include "quantity/quantity.h"
 
 #include "base/decimal.h"
@@ -42,7 +42,7 @@ void kd_quantity_request_init(struct kd_quantity_request *request, const struct 
         kd_quantity_request_set(request, quantity->parameters[i].name, quantity->parameters[i].typed, NULL);
 }
 
-/* Counts the combinations of the parameters that are not along a curve, or of all. */
+/* Counts the combinations of values, either of all parameters or of those that are not along a curve. */
 static size_t combinations(const struct kd_quantity_request *request, bool all)
 {
     size_t n = 1;

@@ -43,8 +43,8 @@ static const char *const sources[] = {
 static const char *const approximations[] = { NULL };
 
 struct memory {
-    struct kd_ring_image far; /* used for an observer at infinity */
-    struct kd_ring_view near; /* used for an observer at a finite radius */
+    struct kd_ring_image far; /* image for an observer at infinity */
+    struct kd_ring_view near; /* image for an observer at a finite radius */
 };
 
 static enum kd_status make(const struct parameters *p, double r, struct memory *m, struct kd_error *error)
@@ -52,7 +52,8 @@ static enum kd_status make(const struct parameters *p, double r, struct memory *
     const double i = p->inclination_deg;
     const struct kd_vantage at = { kd_hole_in(p), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
-    if (isinf(at.r)) { /* from below the plane the ring looks the same, except that beta differs */
+    /* for an observer below the plane the ring looks the same, except that beta has the other sign */
+    if (isinf(at.r)) {
         m->far = kd_ring_image_plain(KD_QUANTITY_HOLE(p), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
         return KD_OK;
     }

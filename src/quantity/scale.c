@@ -56,7 +56,7 @@ static const char *const approximations[] = {
     NULL,
 };
 
-struct memory { double shadow; }; /* mean radius of the shadow, M */
+struct memory { double shadow; }; /* mean radius of the hole's shadow, M */
 
 static double shadow_of(const struct parameters *p)
 {
@@ -103,7 +103,8 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->light_crossing_s = 2 * horizon * o->m_s;
     o->isco_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_isco(black)) * o->m_s;
     o->photon_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_photon_orbit(black)) * o->m_s;
-    const double falls = kd_hole_is_kerr(black) ? 1 : NAN; /* neutral matter turns back within a charged hole */
+    /* NAN with charge, because neutral matter turns back within a charged hole */
+    const double falls = kd_hole_is_kerr(black) ? 1 : NAN;
     o->fall_s = falls * KD_SCALE_FALL * o->m_s;
     o->fall_longest_s = falls * KD_SCALE_FALL_LONGEST * o->m_s;
     return KD_OK;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define RATE 48000
-#define SAMPLES_MIN (RATE / 4) /* shorter files are skipped by some players */
+#define SAMPLES_MIN (RATE / 4) /* least number of samples, because some players skip shorter files */
 
 static size_t parameter(const struct kd_quantity *quantity, const char *name)
 {
@@ -45,7 +45,7 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     return KD_OK;
 }
 
-/* Rounds bounds inwards to four digits, so that a bound that a message names is itself accepted. */
+/* Rounds a bound inwards to four digits, so that the bound that a message names is itself accepted. */
 static double four_digits(double x, bool up)
 {
     double unit = pow(10, floor(log10(x)) - 3);
@@ -72,8 +72,8 @@ static double parameter_of(const struct kd_quantity_answer *answer, const char *
     return answer->request.axes[parameter(answer->request.quantity, name)].first;
 }
 
-/* Limits the stretch. Unstretched, every mode is short enough: the mode with the highest quality factor, 285 (l = m =
- * 4, a = 0.9999), fades by e in 4.5 s at 20 Hz. */
+/* Checks that `stretch` does not make the sound too long. Without stretch every mode is short enough: the mode with the
+ * highest quality factor, 285 (l = m = 4, a = 0.9999), decays by a factor e in 4.5 s at 20 Hz. */
 static enum kd_status short_enough(const struct kd_quantity_answer *answer, struct kd_error *error)
 {
     double fades = output(answer, "sound_damping_s"), stretch = parameter_of(answer, "stretch");
@@ -94,7 +94,7 @@ static enum kd_status put(struct kd_buffer *out, uint64_t value, int bytes)
     return kd_buffer_append(out, little, (size_t)bytes);
 }
 
-/* Writes the 44 bytes before the samples: one channel of 16 bits (IBM and Microsoft, Multimedia Programming
+/* Writes the 44 bytes before the samples, for one channel of 16 bits (IBM and Microsoft, Multimedia Programming
  * Interface 1.0, 1991). */
 static enum kd_status put_header(struct kd_buffer *out, size_t samples, size_t behind)
 {
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-/* Writes a description of the sound into the list of texts that players show. */
+/* Writes a description of the sound as texts that players show. */
 static enum kd_status describe(const struct kd_quantity_answer *answer, struct kd_buffer *out)
 {
     const struct kd_quantity *quantity = answer->request.quantity;

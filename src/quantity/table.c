@@ -3,7 +3,7 @@
 #include "physics/spacetime/kerr.h"
 #include "scene/observer_fault.h"
 #include "document/number.h"
-#include "quantity/quantities.h" /* QUANTITIES, made by meson.build */
+#include "quantity/quantities.h" /* the list QUANTITIES, which meson.build makes */
 
 #include <stdio.h>
 #include <string.h>

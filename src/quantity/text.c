@@ -13,7 +13,7 @@ void kd_quantity_write_number(struct kd_writer *w, double value, const char *mis
         n = kd_decimal_print(text, value == 0 ? 0 : value);
         missing = text;
     }
-    if (!w->status) /* printf would be too slow for many numbers */
+    if (!w->status) /* formats numbers without printf, which would be too slow for many numbers */
         w->status = kd_buffer_append(w->out, missing, n);
 }
 

@@ -59,7 +59,8 @@ static const char *const approximations[] = {
 
 static const double day = 86400;
 
-static struct kd_tidal in_m(const struct parameters *p) /* lengths in units of M of the hole */
+/* mass and radius of the star, with lengths in units of M of the hole */
+static struct kd_tidal in_m(const struct parameters *p)
 {
     return (struct kd_tidal) { 1, p->star_mass_msun / p->mass_msun,
                                p->star_radius_rsun * KD_R_SUN_M / kd_scale_metres(p->mass_msun) };

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Planck's law, W m^-3 sr^-1, at a wavelength in m. */
+/* Planck's law for a wavelength in m: spectral radiance in W m^-3 sr^-1. */
 static double planck(double wavelength, double temperature)
 {
     const double h = KD_H_J_S, c = KD_C_M_S, k = KD_K_J_K;
@@ -43,12 +43,14 @@ double kd_colour_srgb_encode(double linear)
 struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
 {
     struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
-    /* below about 60 K the visible light underflows; the colour tends to the deepest red of the gamut */
+    /* below about 60 K the visible light underflows; the colour is then the deepest red of the gamut, which is its
+     * limit */
     if (!(xyz.y > 0))
         return (struct kd_colour_rgb) { 1 / 0.2126, 0, 0 };
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));
-    /* mix with the grey (1, 1, 1), whose luminance is 1: c + s (1 - c), with the least s that raises `low` to 0 */
+    /* mixes the colour with the grey (1, 1, 1), whose luminance is 1, as c + s (1 - c). s is the least fraction for
+     * which the lowest component is 0 */
     if (low < 0) {
         double s = low / (low - 1);
         c = (struct kd_colour_rgb) { c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };

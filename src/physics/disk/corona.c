@@ -13,11 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXACT 1e-8      /* error of ln r of a ray that meets a ring */
-#define RIGHT 1e-4      /* relative error of epsilon below which no more angles are added */
-#define CORRECT 1e-10   /* error of a direction of the sky, in the chart below */
-#define FAR 1e7         /* M, radius to which light is followed; the rest of the way to infinity is added */
-#define DIFFERENCE 1e-5 /* step of differences on the source's sky, in radians */
+#define EXACT 1e-8    /* allowed error of ln r for a ray that meets a ring */
+#define RIGHT 1e-4    /* relative change of epsilon below which no more angles are added */
+#define CORRECT 1e-10 /* allowed error of a direction on the sky, in the chart below */
+/* radius to which light is followed, M; the time for the rest of the way to infinity is added */
+#define FAR 1e7
+#define DIFFERENCE 1e-5 /* step for finite differences on the source's sky, radians */
 enum { FEWEST = 16, PLACES = 2000, NEWTON = 60 };
 
 bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
@@ -39,9 +40,9 @@ bool kd_corona_source_of(const struct kd_hole *hole, double radius, double heigh
     return true;
 }
 
-/* The ray of a photon that leaves along the unit vector m. Returns energy, momentum and solid of struct
- * kd_corona_photon. Instead of this photon, one that arrives with the same E and L, and with opposite p_r and p_theta,
- * is traced back (null_geodesic.h). Both paths are the same, because the metric does not change under (t, phi) -> (-t,
+/* Makes the ray of a photon that leaves along the unit vector m. Of the result only energy, momentum and solid are set.
+ * The ray is that of another photon, which arrives with the same E and L and with opposite p_r and p_theta, and is
+ * traced back (null_geodesic.h). The two paths are the same, because the metric does not change under (t, phi) -> (-t,
  * -phi). */
 static struct kd_corona_photon send(const struct kd_corona_source *source, const double m[3], struct kd_null_ray *ray)
 {
@@ -61,7 +62,7 @@ static struct kd_corona_photon send(const struct kd_corona_source *source, const
                                        .solid = 1 / (energy * energy) };
 }
 
-/* trace: kd_null_trace_fast, or kd_null_trace_radii, which leaves p.delay NaN. */
+/* Follows a photon to the plane. trace: kd_null_trace_fast, or kd_null_trace_radii, which leaves p.delay NaN. */
 static struct kd_corona_photon emit(const struct kd_corona_source *source, double x, double chi,
                                     struct kd_null_path (*trace)(const struct kd_null_ray *))
 {
@@ -81,8 +82,8 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 
 static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
 
-/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of x and of d ln r/dx. The secant
- * method is used within a bracket, which is possible because r grows with x. */
+/* Finds the value x = ln tan(delta/2) for which the ray along chi meets the ring. It starts from guesses of x and of d
+ * ln r/dx. Because r grows with x, the root can be bracketed, and the secant method stays within the bracket. */
 static bool find(const struct kd_corona_source *source, double chi, double r, double slope, double *found,
                  struct kd_corona_photon *photon)
 {
@@ -118,7 +119,8 @@ static double node_of(const struct kd_corona_light *c, double log_r)
     return log_r + (c->width > 0 ? asinh((log_r - c->centre) / c->width) : 0);
 }
 
-/* Inverts node_of by Newton's method. node_of is monotone, with slopes between 1 and 1 + 1/width. */
+/* The ln r that belongs to s: the inverse of node_of, by Newton's method. node_of is monotone, with slopes between 1
+ * and 1 + 1/width. */
 static double log_radius_of(const struct kd_corona_light *c, double s, double low, double high)
 {
     double at = 0.5 * (low + high);
@@ -142,12 +144,12 @@ static struct kd_corona_light nodes_of(double centre, double width, double inner
 static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
 {
     const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
-    /* The sign of s - ln r is that of ln r - centre, which brackets the root. */
+    /* The sign of s - ln r is the sign of ln r - centre. This gives a bracket of the root. */
     for (int k = 0; k < KD_CORONA_RINGS; k++)
         radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
 }
 
-/* d(values)/dk at k, by the polynomial through STENCIL neighbouring values. */
+/* Derivative d(values)/dk at the node k, by the polynomial through STENCIL neighbouring values. */
 enum { STENCIL = 7 };
 static double slope_at(const double *values, int k)
 {
@@ -158,7 +160,8 @@ static double slope_at(const double *values, int k)
     for (int i = first; i < first + STENCIL; i++)
         for (int j = first; j < first + STENCIL; j++) {
             double term =
-                1. / (i - j); /* terms of the derivative of Lagrange's polynomial i: each leaves out one factor j */
+                /* derivative of Lagrange's polynomial i: a sum of terms, each of which leaves out one factor j */
+                1. / (i - j);
             for (int l = first; l < first + STENCIL && j != i; l++)
                 term *= l == i || l == j ? 1 : (double)(k - l) / (i - l);
             sum += j == i ? 0 : term * values[i];
@@ -166,7 +169,7 @@ static double slope_at(const double *values, int k)
     return sum;
 }
 
-/* Makes the parts of one angle at all rings, from the innermost. */
+/* Computes, for one angle, the parts at all rings, from the innermost outwards. */
 static bool make_angle(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                        const double *radii, int j)
 {
@@ -197,7 +200,7 @@ static bool make_angle(struct kd_corona *c, const struct kd_corona_source *sourc
     return true;
 }
 
-/* Sums the angles of each ring. Returns the largest relative change when every second angle is left out. */
+/* Sums the angles of each ring. Returns the largest relative change of a sum when every second angle is left out. */
 static double add_up(struct kd_corona *c)
 {
     double worst = 0;
@@ -218,9 +221,9 @@ void kd_corona_finish(struct kd_corona *c)
     c->log_part = c->time = NULL;
 }
 
-/* Makes n angles. If n exceeds the smallest number, every second angle exists already. The sum over a period converges
- * as a power of n, so after a doubling the error is about the square of the last change. The reported error is the last
- * change to the power 1.5. */
+/* Makes n angles. If n exceeds the smallest number, every second angle has already been computed. The sum over a period
+ * converges so fast that, after a doubling, the error is about the square of the last change. For safety the reported
+ * error is the last change to the power 1.5. */
 static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                                   const double *radii, int n)
 {
@@ -263,7 +266,7 @@ done:
     return status;
 }
 
-enum { POINTS = 4 }; /* nodes that an interpolation uses */
+enum { POINTS = 4 }; /* number of nodes that an interpolation uses */
 
 static int weigh(const struct kd_corona_light *c, double r, double weight[POINTS])
 {
@@ -300,8 +303,9 @@ void kd_corona_parts(const struct kd_corona *c, double r, double *part, double *
     }
 }
 
-/* Directions at infinity in the chart tan(theta/2) (cos phi, sin phi), phi counted from the source; regular everywhere
- * but at theta = pi. A solid angle of the sky is 4/(1 + x^2 + y^2)^2 times the area in the chart. */
+/* Finds where the light of the direction m arrives at infinity. Directions at infinity have the coordinates
+ * tan(theta/2) (cos phi, sin phi), where phi counts from the source. This chart is regular everywhere except at theta =
+ * pi. A solid angle of the sky is 4/(1 + x^2 + y^2)^2 times the area in the chart. */
 static bool arrive(const struct kd_corona_source *source, const double m[3], double out[2])
 {
     struct kd_null_ray ray;
@@ -314,7 +318,7 @@ static bool arrive(const struct kd_corona_source *source, const double m[3], dou
     return isfinite(out[0]) && isfinite(out[1]);
 }
 
-/* Two directions perpendicular to m. */
+/* Two unit vectors perpendicular to m. */
 static void across(const double m[3], double axes[2][3])
 {
     const int k = fabs(m[0]) < fabs(m[1]) ? (fabs(m[0]) < fabs(m[2]) ? 0 : 2) : (fabs(m[1]) < fabs(m[2]) ? 1 : 2);
@@ -336,7 +340,7 @@ static void turn(const double m[3], double axes[2][3], double x, double y, doubl
         out[i] /= sqrt(size);
 }
 
-/* d(chart)/d(direction) at m, by central differences. */
+/* Derivatives of the chart's coordinates by the direction at m, by central differences. */
 static bool slopes(const struct kd_corona_source *source, const double m[3], double axes[2][3], double rate[2][2])
 {
     for (int j = 0; j < 2; j++) {
@@ -351,8 +355,8 @@ static bool slopes(const struct kd_corona_source *source, const double m[3], dou
     return true;
 }
 
-/* Finds the direction m whose light arrives at `want`, by Newton's method from m; *solid: solid angle per area of the
- * chart. */
+/* Finds the direction whose light arrives at `want`, by Newton's method from m. Sets m to that direction, and *solid to
+ * the solid angle per area of the chart. */
 static bool aim(const struct kd_corona_source *source, const double want[2], double m[3], double *solid)
 {
     double at[2], axes[2][3], rate[2][2];
@@ -386,8 +390,9 @@ static bool aim(const struct kd_corona_source *source, const double want[2], dou
     return false;
 }
 
-/* Coordinate time to infinity minus r_o + 2 ln r_o. The part beyond FAR is computed to first order in 1/FAR, from dt/dr
- * = 1 + 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A of null_quartic.h). */
+/* Coordinate time of the light from the source to infinity, minus r_o + 2 ln r_o. The part beyond FAR is computed to
+ * first order in 1/FAR, from dt/dr = 1 + 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A is defined in
+ * null_quartic.h). */
 static double time_of(const struct kd_corona_source *source, const double m[3])
 {
     struct kd_null_place places[PLACES];
@@ -404,7 +409,7 @@ static double time_of(const struct kd_corona_source *source, const double m[3])
     return last->delay - last->r - 2 * log(last->r) + rest / last->r;
 }
 
-/* The direction towards (theta, azimuth) without bending. */
+/* The direction from the source towards (theta, azimuth) if light were not bent. */
 static void straight(const struct kd_corona_source *source, double cos_i, double azimuth, double m[3])
 {
     const double sin_i = sqrt((1 - cos_i) * (1 + cos_i)), u = source->frame.at.u, s = source->frame.at.s;
@@ -413,9 +418,8 @@ static void straight(const struct kd_corona_source *source, double cos_i, double
     m[2] = sin_i * sin(azimuth);
 }
 
-/* Aims from m in this number of steps. Intermediate targets lie between the direction in which the light of m arrives
- * and the wanted one.
- */
+/* Finds the direction in a number of steps, starting from m. The target of each step lies between the direction in
+ * which the light of m arrives and the wanted one. */
 static bool aim_by_steps(const struct kd_corona_source *source, const double want[2], int steps, double m[3],
                          double *solid)
 {
@@ -431,8 +435,8 @@ static bool aim_by_steps(const struct kd_corona_source *source, const double wan
     return true;
 }
 
-/* Aims from m. If that fails, because the ray of m is bent down to the plane or into the hole, aims from other
- * directions, further and further from m. */
+/* Finds the direction, starting from m. This may fail because the ray of m is bent down to the plane or into the hole.
+ * In that case it starts from other directions, further and further from m. */
 static bool aim_anew(const struct kd_corona_source *source, double cos_i, double azimuth, const double want[2],
                      double m[3], double *solid)
 {
@@ -480,8 +484,8 @@ bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_in
     return isfinite(out->time) && out->flux > 0;
 }
 
-/* Numbers of Gauss points. In rho: POINTS_A_HEIGHT for each height of the corona, between FEWEST_RHO and MOST_RHO. In
- * z: POINTS_Z. */
+/* Numbers of Gauss points. In rho: POINTS_A_HEIGHT for each height of the corona, limited to the range from FEWEST_RHO
+ * to MOST_RHO. In z: POINTS_Z. */
 #define POINTS_A_HEIGHT 2
 enum { POINTS_Z = 3, FEWEST_RHO = 5, MOST_RHO = 20 };
 
@@ -507,7 +511,8 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
     return n;
 }
 
-/* For a single ring the table is that of the ring. For several rings the table's nodes are even in ln r. */
+/* Makes the table of a corona's light. For a single ring it is the table of that ring. For several rings the nodes of
+ * the table are even in ln r. */
 static enum kd_status make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                  double inner, double outer, struct kd_corona_light *out)
 {
@@ -543,7 +548,7 @@ struct key {
 };
 static struct entry {
     struct key key;
-    unsigned long used; /* time of last use; 0: empty */
+    unsigned long used; /* time of the last use; 0 if the entry is empty */
     struct kd_corona_light light;
 } entries[KEPT];
 static unsigned long uses;

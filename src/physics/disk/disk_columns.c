@@ -10,24 +10,26 @@
 #include <math.h>
 #include <string.h>
 
-/* Lengths at which the spacing changes from even to geometric: of columns, and of places along a column. */
+/* Lengths (M) at which the spacing changes from even to geometric. HOLE: for the spacing of columns. The next one: for
+ * that of places along a column. */
 #define HOLE 2.
 #define THIN 0.2
-#define BESIDE 1e-9 /* beta of the place next to the plane; a ray at beta = 0 could lie in the plane */
+#define BESIDE 1e-9 /* beta of the place next to the plane; not 0, because a ray at beta = 0 could lie in the plane */
 enum {
-    PLACES = 48,  /* first division of a column */
-    DEEPEST = 16, /* number of halvings of a cell in which an edge lies; more for a narrow disk */
-    NARROW = 8,   /* number of cells across a narrow disk, at least */
-    SEARCHED = 24 /* steps of the golden section to the smallest radius of a column */
+    PLACES = 48,  /* number of places into which a column is first divided */
+    DEEPEST = 16, /* number of times that a cell with an edge is halved; more for a narrow disk */
+    NARROW = 8,   /* least number of cells across a narrow disk */
+    SEARCHED = 24 /* number of steps of the golden section that searches the smallest radius of a column */
 };
-#define ASIDE 0.01 /* distance of the rays for the slope of r, as a fraction of a column's width */
+#define ASIDE 0.01 /* distance of the rays from which the slope of r is computed, as a fraction of a column's width */
 #define SHORTER 0.61803398874989485
 
-/* Values for a ray that shows no point of the disk. */
+/* Values of `order` for a ray that shows no point of the disk: it passes within the inner edge, or beyond the outer
+ * edge. */
 enum { WITHIN = -1, BEYOND = -2 };
 
-/* A place on a column, with the face or value seen there and the radius of the first crossing. The radius is 0 if the
- * ray is captured before, and INFINITY if it escapes. */
+/* A place on a column. seen: the point of the disk that is seen there, or a value above. first: radius of the first
+ * crossing of the plane; 0 if the ray is captured before it, INFINITY if it escapes. */
 struct place {
     struct kd_disk_end seen;
     double first;
@@ -60,7 +62,7 @@ struct column {
 
 static bool lit(const struct kd_disk_end *end) { return end->order >= 0; }
 
-/* dr/dalpha at one beta, from a ray on either side; 0 if neither ray shows the disk. */
+/* dr/dalpha at constant beta, from a second ray on one side; 0 if neither side shows the same face of the disk. */
 static double slope_at(const struct column *column, const struct kd_disk_end *at)
 {
     for (int k = -1; k <= 1; k += 2) {
@@ -81,15 +83,17 @@ static void add(const struct column *column, const struct kd_disk_end *x, const 
     column->c->add(column->c->user, &cell);
 }
 
-/* True if both places are on one face, on one side of the split, and their r differ by no more than a step. */
+/* True if two places are on the same face, are on the same side of the split, and have radii that differ by no more
+ * than a step of ln r. */
 static bool close_to(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y)
 {
     const double split = column->c->split;
     return x->order == y->order && (x->r < split) == (y->r < split) && fabs(log(y->r / x->r)) < column->step;
 }
 
-/* Halves a cell until r changes little enough in the cell, or until an edge is found to 2^-DEEPEST of the first
- * division. A cell with an edge is divided equally between its two ends. */
+/* Adds the part of a column between two places, as cells. Cells are halved until r changes little enough within each,
+ * or until an edge is found to 2^-DEEPEST of the first division. The length of a cell with an edge is divided equally
+ * between its two ends. */
 static void divide(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y, int depth)
 {
     const double length = y->beta - x->beta;
@@ -111,7 +115,8 @@ static void divide(const struct column *column, const struct kd_disk_end *x, con
     divide(column, &middle, y, depth + 1);
 }
 
-/* The place between two others at which the first crossing is nearest to the hole. There a ring ends. */
+/* The place between two others at which the first crossing is nearest to the hole. At the end of a ring this place is
+ * on the ring. */
 static struct place nearest(const struct column *column, double low, double high)
 {
     double x = high - SHORTER * (high - low), y = low + SHORTER * (high - low);
@@ -129,7 +134,7 @@ static struct place nearest(const struct column *column, double low, double high
     return at_x.first < at_y.first ? at_x : at_y;
 }
 
-/* Half the height of the image. The far side is lifted as by a thin lens, b (b - r cos i) = 4 r. */
+/* Half the height of the image. The far side is taken to be lifted as by a thin lens, b (b - r cos i) = 4 r. */
 static double height_of(const struct kd_disk_image *image, double outer)
 {
     const double flat = outer * image->cos_i;
@@ -147,7 +152,7 @@ static void add_column(const struct column *column)
         if (places[k].first < places[least].first)
             least = k;
     }
-    /* At the ends of rings a cell may lie between two places that show nothing of it. */
+    /* At the ends of rings, the disk may be seen only within a cell and not at the cell's two ends. */
     if (least > 0 && least < PLACES && places[least].first > column->c->inner) {
         const struct place end = nearest(column, places[least - 1].seen.beta, places[least + 1].seen.beta);
         const int at = end.seen.beta < places[least].seen.beta ? least : least + 1;
@@ -159,8 +164,9 @@ static void add_column(const struct column *column)
         divide(column, &places[k - 1].seen, &places[k].seen, 0);
 }
 
-/* Between the ends of the inner and of the outer ring, columns are evenly spaced in asinh(alpha/HOLE), but denser
- * towards both ends. There the light grows as the square root of the distance from the end. */
+/* Adds the columns between the ends of the inner ring and of the outer ring. They are evenly spaced in
+ * asinh(alpha/HOLE), but denser towards both ends, where the light grows as the square root of the distance from the
+ * end. */
 static void add_columns(const struct kd_disk_image *image, const struct kd_disk_columns *c, double from, double to,
                         int n)
 {

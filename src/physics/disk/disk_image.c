@@ -10,29 +10,29 @@
 #include <string.h>
 
 enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
-/* M, minimum distance of the origin of the coordinate u (radius_of_node) from the ISCO. With a smaller distance, all
- * nodes for a > 0.9995 would lie at the horizon, where the image no longer changes. */
+/* least distance, M, of the origin of the coordinate u (radius_of_node) from the ISCO. With a smaller distance, all
+ * nodes for a > 0.9995 would lie at the horizon, where the image no longer changes */
 #define NEAREST 0.1
-#define NODES 1e-7  /* error of ln r at the nodes */
-#define PLACE 1e-12 /* error of ln r at a single requested place */
-#define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
-/* error of a slope if only the slope of flat space is known; otherwise the error is this fraction of the error of the
- * extrapolation from the preceding rings */
+#define NODES 1e-7  /* allowed error of ln r at the nodes */
+#define PLACE 1e-12 /* allowed error of ln r at a single requested place */
+#define BENDS 10.   /* largest relative change of a slope per unit of ln r */
+/* relative error of a slope: this much if only the slope of flat space is known; otherwise this fraction of the error
+ * of the extrapolation from the preceding rings */
 #define DRIFTS 0.2
 #define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
-#define MOVED 0.3     /* maximum correction of a guess of R by the errors of the guesses at the preceding angles */
-enum { HISTORY = 5 }; /* number of preceding rings from which a slope at a ring of nodes is computed */
+#define MOVED 0.3     /* largest correction of a guess of R by the errors of the guesses at the preceding angles */
+enum { HISTORY = 5 }; /* number of preceding rings from which the slope at a ring is computed */
 
 struct ellipse { double x0, y0, a, b; };
 
 /* Height of the centre above the origin, as a fraction of the difference between the far side's height and the near
- * side's depth. Near edge-on the far side is a hump with low wings. Each line from the centre meets a ring only once
- * if the centre lies below all tangents of the hump. With the centre midway between both sides (0.5), lines met some
- * rings three times above 86.5 degrees. */
+ * side's depth. Near edge-on the image of the far side is a hump with low wings. If the centre lies below all tangents
+ * of the hump, each line from the centre meets a ring only once. With the centre midway between both sides (0.5), lines
+ * met some rings three times at inclinations above 86.5 degrees. */
 #define LIFTED 0.1
 
 /* Approximate ellipse of the ring's image. The near side is as in flat space. The far side is lifted as by a thin lens,
- * b (b - r cos i) = 4 r; a factor sin(i)^4 makes this vanish face-on. */
+ * b (b - r cos i) = 4 r. A factor sin(i)^4 makes the lift vanish face-on. */
 static struct ellipse around(const struct kd_disk_image *image, double r)
 {
     double flat = r * image->cos_i, s2 = image->sin_i * image->sin_i;
@@ -67,14 +67,14 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* d ln r/d ln R at the starting point. Its relative error is `drift`, plus `bend` times the error of ln r at that
- * point. */
+/* The slope d ln r/d ln R at the starting point of a search. Its relative error is `drift`, plus `bend` times the error
+ * of ln r at that point. */
 struct slope { double value, drift, bend; };
 
-/* Solves ln(r_0/r) = 0 for ln R from a guess, by the secant method within a bracket; r_0 is the radius at which the ray
- * meets the plane. slope: on entry the first slope, 1 in flat space; on return its value is the slope of the last
- * secant. The last step is not verified if the remaining error, estimated from the change of the slope, is below
- * `exact`. */
+/* Finds the ln R for which the ray meets the plane at r: it solves ln(r_0/r) = 0, where r_0 is the radius at which the
+ * ray meets the plane. It starts from a guess, and uses the secant method within a bracket. slope: on entry the slope
+ * for the first step, which is 1 in flat space; on return slope->value is the slope of the last secant. No ray verifies
+ * the last step if the remaining error, estimated from the change of the slope, is below `exact`. */
 static bool find(const struct kd_disk_image *image, const struct ellipse *e, const double direction[2], double r,
                  double exact, double *log_stretch, struct slope *slope)
 {
@@ -106,11 +106,11 @@ static bool find(const struct kd_disk_image *image, const struct ellipse *e, con
         }
         x = next;
     }
-    *log_stretch = before; /* rounding prevents convergence next to an extremal hole */
+    *log_stretch = before; /* gives up, as rounding prevents convergence next to an extremal hole */
     return fabs(f_before) < 1e-6;
 }
 
-/* Extrapolates from at most five preceding rings to the next one, at the same angle, by the polynomial through them. */
+/* Extrapolates R to the next ring, at the same angle, by the polynomial through at most five preceding rings. */
 static double guess(const struct kd_disk_image *image, int k, int j)
 {
     double a = image->stretch[k - 1][j];
@@ -125,7 +125,7 @@ static double guess(const struct kd_disk_image *image, int k, int j)
     return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
-/* Derivative of an ellipse with respect to ln r: relative for the half axes, in M for the centre. */
+/* Derivative of a ring's ellipse by ln r: relative for the half axes, in M for the centre. */
 static struct ellipse growth_of(const struct kd_disk_image *image, double r)
 {
     const double step = 1e-4;
@@ -134,9 +134,9 @@ static struct ellipse growth_of(const struct kd_disk_image *image, double r)
                               (out.b - in.b) / (step * (out.b + in.b)) };
 }
 
-/* d ln r/d ln R at a fixed direction from the centre of a ring's ellipse, from approximate values of the ring and its
- * neighbours. p_L and p_chi are the derivatives of a place by ln r and by chi. swells, turns: the relative derivatives
- * of R by ln r and by chi. The slope is d x p_chi/(p_L x p_chi) with d = R (A cos chi, B sin chi). */
+/* The slope d ln r/d ln R at a fixed direction from the centre of a ring's ellipse, from approximate values of the ring
+ * and its neighbours. swells, turns: relative derivatives of R by ln r and by chi. The slope is d x p_chi/(p_L x
+ * p_chi). Here p_L and p_chi are the derivatives of a place by ln r and by chi, and d = R (A cos chi, B sin chi). */
 static double slope_at(const struct ellipse *e, const struct ellipse *growth, const double direction[2], double stretch,
                        double swells, double turns)
 {
@@ -149,13 +149,13 @@ static double slope_at(const struct ellipse *e, const struct ellipse *growth, co
 /* State while ring k of the nodes is made from the preceding rings. */
 struct making {
     int k;
-    double r, rate; /* dk/d ln r */
+    double r, rate; /* radius of the ring; dk/d ln r there */
     struct ellipse e, growth;
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
 /* Weights for the derivative at the last of several nodes, by backward differences. The weight of the last node comes
- * first. The derivative is the sum of nabla^m/m, m = 1 ... order. */
+ * first. The derivative is the sum of nabla^m/m for m from 1 to the order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },
@@ -164,8 +164,8 @@ static const double backward[HISTORY][HISTORY + 1] = {
     { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
 };
 
-/* Errors of the guesses from the preceding rings. next: extrapolated to the present angle; last: at the last three
- * angles, the latest first. */
+/* Errors of the guesses from the preceding rings. next: the error extrapolated to the present angle. last: errors at
+ * the last three angles, the latest first. */
 struct miss { double next, last[3]; };
 
 static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,
@@ -211,7 +211,7 @@ static bool make_ring(struct kd_disk_image *image, int k)
 
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination)
 {
-    /* pi/2 is rounded, so that its cosine is not 0 */
+    /* pi/2 is rounded, so its cosine is not exactly 0 */
     const double cosine = fabs(cos(inclination)), c = cosine < 1e-15 ? 0 : cosine;
     memset(image, 0, sizeof *image);
     image->hole = *hole, image->cos_i = c, image->sin_i = sin(inclination);
@@ -233,7 +233,7 @@ bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole,
     return true;
 }
 
-/* Lagrange's weights of the nodes 0 ... POINTS - 1 at x. */
+/* Lagrange's weights of the nodes 0 ... POINTS - 1 for the place x. */
 static void weigh(double x, double weight[POINTS])
 {
     for (int i = 0; i < POINTS; i++) {
@@ -244,7 +244,7 @@ static void weigh(double x, double weight[POINTS])
     }
 }
 
-/* R of the ring at the angles of the nodes. */
+/* Values of R at the angles of the nodes, for a ring between rings of nodes. */
 static void between_rings(const struct kd_disk_image *image, double r, int skip, double *row)
 {
     double at = node_of_radius(image, r) / skip, weight[POINTS];

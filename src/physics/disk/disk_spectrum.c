@@ -9,28 +9,28 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { PANELS = 32, GAUSS = 3, COLUMNS = 256 /* in each part of an image without a table */ };
+enum { PANELS = 32, GAUSS = 3, COLUMNS = 256 /* numbers in each part of an image without a table */ };
 static const double at_gauss[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
                     share_gauss[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
-/* The sum with every second node differs from the full sum; this fraction of the difference is reported as the error.
- * The table's error falls at best as the sixth power of the step; the difference is then 63 times the error (as in
- * line_profile.c) */
+/* Fraction of a difference that is reported as the table's error: the difference between the full sum and the sum with
+ * every second node. The table's error decreases at best as the sixth power of the step, and the difference is then 63
+ * times the error (as in line_profile.c) */
 #define TABLE 0.125
-/* cos i below which the error of sums does not yet fall as the square of the cells. In this range the errors of
- * randomly chosen sums were up to 2.1 times the estimate (tests/unit/told_spectra.c). Four times the estimate is
+/* cos i below which the error of sums does not yet decrease as the square of the cells' size. In this range the errors
+ * of randomly chosen sums were up to 2.1 times the estimate (tests/unit/told_spectra.c). Four times the estimate is
  * therefore reported. */
 #define EDGE_ON 0.1
 #define WIDEST 0.1 /* change of ln r in a cell of the finest columns */
 #define APART 1e-3 /* step for slopes of the image, as a fraction of the distance to the horizon */
 
-/* A ring of the integral, and the neighbouring rings from which J = |d(alpha, beta)/d(ln r, chi)| is computed at each
- * angle. */
+/* A ring of the integral. Its neighbours are two rings close to it, from which the Jacobian J = |d(alpha, beta)/d(ln r,
+ * chi)| is computed at each angle. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES], beta[KD_DISK_IMAGE_ANGLES], below[2][KD_DISK_IMAGE_ANGLES],
         above[2][KD_DISK_IMAGE_ANGLES];
 };
 
-/* Fourth-order derivative along a ring from four neighbours. */
+/* Derivative along a ring, of fourth order, from four neighbours. */
 static double along(const double *x, int j, int n)
 {
     double near = x[(j + 1) % n] - x[(j + n - 1) % n], far = x[(j + 2) % n] - x[(j + n - 2) % n];
@@ -44,7 +44,7 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
-/* Sets up a ring at r. Returns the step in ln r to its neighbours. */
+/* Sets up a ring at r. Returns the step in ln r to the two close rings. */
 static double go_to(const struct kd_disk_image *image, double r, int skip, int n, struct ring *ring)
 {
     const double apart = kd_disk_image_step(image, r, APART);
@@ -75,7 +75,7 @@ static void add_part(const struct kd_disk_spectrum_params *p, double t, const st
         sum[i] += part / expm1(x * frequencies[i]);
 }
 
-/* Adds a ring's light; weight: its width in ln r. */
+/* Adds a ring's light. weight: width of the ring in ln r. */
 static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, double r,
                      double weight, int skip, int n, const double *frequencies, int n_f, struct ring *ring, double *sum)
 {
@@ -90,7 +90,7 @@ static void add_ring(const struct kd_disk_image *image, const struct kd_disk_spe
     }
 }
 
-/* Next to edge-on: the light of a cell of a column is integrated by Simpson's rule. */
+/* For an image next to edge-on: integrates the light of each cell of the columns by Simpson's rule. */
 struct by_columns {
     const struct kd_disk_image *image;
     const struct kd_disk_spectrum_params *p;
@@ -125,7 +125,8 @@ static void add_columns(const struct kd_disk_image *image, const struct kd_disk_
                                                        .user = &user });
 }
 
-/* Resolution of an integral: `coarse` times fewer points, and every `skip`th node of the table. */
+/* Resolution of an integral: it has `coarse` times fewer points than the finest one, and uses every `skip`th node of
+ * the table. */
 struct looks { int coarse, skip; };
 
 static void integrate(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, struct looks looks,
@@ -141,7 +142,7 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
         for (int k = 0; k < GAUSS; k++) {
             if (kd_pause())
                 return;
-            /* ln r = ln inner + span s^2, because T varies as the square root of r - r_isco. */
+            /* ln r = ln inner + span s^2: points are even in s, because T varies as the square root of r - r_isco */
             double s = (i + 0.5 + 0.5 * at_gauss[k]) / panels;
             add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share_gauss[k] / panels, looks.skip, n,
                      frequencies, n_f, ring, sum);
@@ -165,8 +166,9 @@ void kd_disk_places(const struct kd_disk_image *image, double inner, double oute
     }
 }
 
-/* The error of a sum, from two coarser sums, because two sums alone may agree by chance. One has half as many points.
- * The other has every second node of the table or, next to edge-on, a quarter as many points. */
+/* The error of a sum. It is estimated from two coarser sums, because two sums alone may agree by chance. One coarser
+ * sum has half as many points. The other uses every second node of the table or, next to edge-on, a quarter as many
+ * points. */
 static double told(const struct kd_disk_image *image, double flux, double other, double rough)
 {
     const double here = fabs(other - flux), before = fabs(rough - other);

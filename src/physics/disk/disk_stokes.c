@@ -14,17 +14,17 @@
 #include <string.h>
 
 #define STEP 0.02   /* step of ln T between nodes */
-#define COLDEST -10 /* ln T of node 0; T is in units of the largest temperature of the disk */
+#define COLDEST -10 /* ln T of node 0, with T in units of the disk's largest temperature */
 enum {
-    RINGS = 24,   /* nodes in s = sqrt(r_isco/r) at which reflected light is computed */
-    COSINES = 12, /* nodes in the cosine of the angle at which it leaves */
-    PARTS = 15,   /* l, r, u of struct kd_reflected_stokes */
+    RINGS = 24,   /* number of nodes in s = sqrt(r_isco/r) at which reflected light is computed */
+    COSINES = 12, /* number of nodes in the cosine of the angle at which reflected light leaves */
+    PARTS = 15,   /* number of members l, r, u of struct kd_reflected_stokes */
 };
 
 static double place_of(double log_t) { return (log_t - COLDEST) / STEP; }
 
-/* Weights of the cubic through four nodes at a place, which lies between the second and the third node, except at the
- * ends. Returns the first node. */
+/* Weights of the cubic through four nodes for a place. The place lies between the second and the third of these nodes,
+ * except at the ends of the range. Returns the first node. */
 static int weigh(double place, double weight[4])
 {
     const int i = (int)fmin(fmax(floor(place), 1), KD_STOKES_NODES - 3);
@@ -36,15 +36,16 @@ static int weigh(double place, double weight[4])
     return i - 1;
 }
 
-/* A ray of light at a ring. energy: in the gas's frame. n: its direction there, in components along r, phi and the
- * normal. azimuth: of n about the normal. l, r: constants of Walker & Penrose for polarisation along l and r of
- * scattering.h. */
+/* A ray of light at a ring, in the frame of the gas. energy: energy of the photon. n: direction, with components along
+ * r, phi and the normal. azimuth: azimuth of n about the normal. l, r: constants of Walker & Penrose for light that is
+ * polarised along the directions l and r of scattering.h. */
 struct meeting {
     double energy, n[3], azimuth;
     double complex l, r;
 };
 
-/* e, lambda: energy and angular momentum at infinity. If p_theta < 0, the light goes up. sense: sign of p^r. */
+/* The ray with energy e and angular momentum lambda at infinity. If p_theta < 0, the light goes up. sense: sign of p^r.
+ */
 static struct meeting meeting_of(const struct kd_hole *hole, double r, double e, double lambda, double p_theta,
                                  int sense)
 {
@@ -62,7 +63,7 @@ static struct meeting meeting_of(const struct kd_hole *hole, double r, double e,
     for (int i = 0; i < 2; i++) {
         const double ft = gamma * v * f[i][1], fp = gamma * f[i][1];
         of[i] = (kt * f[i][0] - kr * ft) - I * (-kp * f[i][2] - ks * fp);
-        of[i] *= r; /* r - i a cos(theta) in the plane */
+        of[i] *= r; /* the factor is r - i a cos(theta), which is r in the plane */
     }
     m.l = of[0], m.r = of[1];
     return m;
@@ -72,14 +73,14 @@ static struct meeting meeting_of(const struct kd_hole *hole, double r, double e,
 struct mirror {
     const struct kd_hole *hole;
     const struct kd_disk_spectrum_params *p;
-    double largest; /* largest flux of the disk */
+    double largest; /* largest flux from the disk */
     double mu[COSINES];
     struct kd_scattering_functions at[COSINES];
-    double (*parts)[PARTS][KD_STOKES_NODES]; /* array for the ring that is being filled */
+    double (*parts)[PARTS][KD_STOKES_NODES]; /* array that is being filled, for one ring */
     double r;
 };
 
-/* Tables of functions of the atmosphere, for interpolation in the fourth root of the cosine. */
+/* Tables of the atmosphere's functions, at nodes in the fourth root of the cosine. */
 enum { FINE = 200 };
 struct atmosphere {
     double fraction[FINE + 1];
@@ -136,11 +137,11 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
                  flux = kd_disk_flux_page_thorne(m->hole, ray->from);
     if (!(flux > 0) || !(mu0 > 0))
         return;
-    /* mu dOmega in the frame of zero angular momentum, in which the light has the energy 1 */
+    /* mu dOmega in the frame of zero angular momentum, where the light has the energy 1 */
     const double solid = ray->solid / pow(at.energy, 3) / mu0,
                  light = kd_limb_at(m->p->limb, mu_e) * kd_limb_scale(m->p->limb) * solid,
                  fraction = fraction_at(a, mu_e);
-    /* At its source the light is polarised along r. Here this direction has become x l + y r. */
+    /* At its source the light is polarised along r. At this ring the direction of polarisation is x l + y r. */
     const double complex turn = from.r / at.l, other = at.r / at.l;
     const double y = cimag(turn) / cimag(other), x = creal(turn) - y * creal(other), size = x * x + y * y,
                  q = fraction * (x * x - y * y) / size, u = fraction * 2 * x * y / size;
@@ -153,9 +154,9 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
         struct kd_reflected_stokes out;
         kd_scattering_reflect(&m->at[j], m->mu[j], &in, mu0, stokes, &out);
         const double *const all[3] = { out.l, out.r, out.u };
-        /* Turns the series in the difference of azimuths into a series in the azimuth itself. Terms in the azimuth's
-         * first multiple are proportional to the sine of the angle from the normal. They are divided by it here, so
-         * that they are smooth in the cosine, and multiplied by it in add_place. */
+        /* Converts the series in the difference of azimuths to a series in the azimuth of the outgoing light. Terms in
+         * the first multiple of the azimuth are proportional to the sine of the angle from the normal. They are divided
+         * by this sine here, so that they are smooth in the cosine; add_place multiplies them by it. */
         const double level = sqrt((1 - m->mu[j]) * (1 + m->mu[j]));
         for (int k = 0; k < 3; k++) {
             const double *f = all[k], turned[5] = { f[0], (f[1] * c - f[2] * s) / level, (f[1] * s + f[2] * c) / level,
@@ -167,7 +168,7 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
     }
 }
 
-/* Weights of Chebyshev's nodes at x (returning.c). */
+/* Weights of Chebyshev's nodes for interpolation at x (returning.c). */
 static void cheb_weights(const double *nodes, int n, double x, double *weights)
 {
     double sum = 0;
@@ -180,7 +181,7 @@ static void cheb_weights(const double *nodes, int n, double x, double *weights)
         weights[j] /= sum;
 }
 
-/* State while a spectrum is computed. */
+/* State during the computation of a spectrum. */
 struct work {
     struct kd_disk_stokes *out;
     const struct kd_disk_image *image;
@@ -189,10 +190,10 @@ struct work {
     struct mirror mirror;
     bool scattered;
     double nodes[RINGS];
-    double (*rings)[COSINES][PARTS][KD_STOKES_NODES]; /* r^3 times the parts at the nodes in s */
-    double (*ring)[PARTS][KD_STOKES_NODES];           /* the parts at the radius ring_at */
+    double (*rings)[COSINES][PARTS][KD_STOKES_NODES]; /* r^3 times the parts, at the nodes in s */
+    double (*ring)[PARTS][KD_STOKES_NODES];           /* the parts at the radius `ring_at` */
     double ring_at;
-    int first, last; /* the first and the last node of ln T with light */
+    int first, last; /* first and last node of ln T with light */
 };
 
 static double flux_of(const struct work *w, double r)
@@ -272,7 +273,7 @@ static void add_place(void *user, const struct kd_disk_place *place)
     /* The polarisation is along f = x right + y up, where x - i y = kappa/kappa(right). North + i east is y - i x. */
     const double complex right = (place->alpha + a * w->image->sin_i) + I * place->beta, l = m.l / right,
                          r = m.r / right;
-    const double complex z = conj(l) * -I / cabs(l), turn = z * z; /* x + i y times -i */
+    const double complex z = conj(l) * -I / cabs(l), turn = z * z; /* -i (x + i y) */
     const double side = cimag(conj(r) / conj(l)) > 0 ? 1 : -1;
     if (flux > 0) {
         const double light = place->area * kd_limb_at(w->p->limb, m.n[2]) * kd_limb_scale(w->p->limb),
@@ -311,7 +312,7 @@ enum kd_status kd_disk_stokes_init(struct kd_disk_stokes *stokes, const struct k
     struct work *w = calloc(1, sizeof *w);
     *stokes = (struct kd_disk_stokes) { .scale = length * length / (f2 * f2) };
     if (w) {
-        w->rings = scattered ? calloc(RINGS, sizeof *w->rings) : NULL; /* 30 MB */
+        w->rings = scattered ? calloc(RINGS, sizeof *w->rings) : NULL; /* takes 30 MB */
         w->ring = scattered ? calloc(COSINES, sizeof *w->ring) : NULL;
     }
     if (!w || (scattered && !(w->rings && w->ring))) {

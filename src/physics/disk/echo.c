@@ -8,20 +8,21 @@
 #include <string.h>
 
 enum {
-    RINGS = 256, /* cells between the inner and the outer edge, of equal width in ln r */
+    RINGS = 256, /* number of cells between the inner and the outer edge, of equal width in ln r */
     AROUND = 256,
-    FINER = 2, /* a cell is divided into this many parts in each direction; light is interpolated at each part */
+    /* number of parts, in each direction, into which a cell is divided; light is interpolated at each part */
+    FINER = 2,
 };
 
-/* A point of the disk as the observer sees it. g: energy over E0; time: t_2; light: photons per area of the image, for
- * epsilon = 1. */
+/* A point of the disk as the observer sees it. g: energy divided by E0. time: t_2. light: photons per area of the image
+ * for epsilon = 1. */
 struct point { double alpha, beta, g, time, light; };
 
 struct view {
     struct kd_corona corona;
     struct point (*points)[AROUND]; /* light at each of RINGS + 1 rings */
     double log_epsilon[RINGS + 1];
-    double *part, *time; /* light of the corona, by ring and angle */
+    double *part, *time; /* parts of the corona's light and their times, by ring and angle */
 };
 
 static void finish(struct view *view)
@@ -106,7 +107,7 @@ static double at(double x0, double x1, double y0, double y1, double across, doub
 #define AT(member, across, along) \
     at(c->in[0]->member, c->in[1]->member, c->out[0]->member, c->out[1]->member, across, along)
 
-/* Half of the range of a linear function within a part of the cell. */
+/* Half of the range of a member, taken as linear, within a part of the cell. */
 #define REACH(member) \
     (0.5 / FINER * \
      (fabs(AT(member, across, 1) - AT(member, across, 0)) + fabs(AT(member, 1, along) - AT(member, 0, along))))
@@ -118,14 +119,15 @@ static double area_at(const struct cell *c, double across, double along)
     return fabs(wa * lb - wb * la) / (FINER * FINER);
 }
 
-/* Histogram over energy and time. edges: of the bins of energy. Bins of time have the same width `step`. row: scratch,
- * the light by time of the part of a cell that is being added. */
+/* Histogram over energy and time. edges: edges of the bins of energy. step: width of the bins of time. row: scratch
+ * memory for the light, by time, of the part of a cell that is being added. */
 struct sum {
     double total, late;
     const double *edges;
     double first, step;
     size_t bins, times;
-    double *in, *row, *steps; /* steps: differences of `row` from one time to the next, times + 1 */
+    /* in: the sums. steps: differences of `row` from one time to the next; it has times + 1 entries */
+    double *in, *row, *steps;
 };
 
 static size_t first_bin(const double *edges, size_t n, double x)
@@ -141,7 +143,7 @@ static size_t first_bin(const double *edges, size_t n, double x)
     return low;
 }
 
-/* Share of the range from low to high that lies in bin i. */
+/* Share of the range from `low` to `high` that lies in bin i. */
 static double overlap(double low, double high, const double *edges, size_t i)
 {
     if (high <= low)
@@ -149,10 +151,10 @@ static double overlap(double low, double high, const double *edges, size_t i)
     return fmax(0, fmin(high, edges[i + 1]) - fmax(low, edges[i])) / (high - low);
 }
 
-/* The bins that a range overlaps, from first to end - 1. */
+/* Bins that a range overlaps: from `first` to end - 1. */
 struct touched { size_t first, end; };
 
-/* Spreads light evenly over the times from `from` to `to`. */
+/* Spreads light evenly over the time between `from` and `to`. Returns the bins of time that this range overlaps. */
 static struct touched spread(struct sum *s, double light, double from, double to)
 {
     const double low = (from - s->first) / s->step, high = (to - s->first) / s->step, last = (double)s->times;
@@ -174,21 +176,22 @@ static struct touched spread(struct sum *s, double light, double from, double to
 }
 
 /* Adds a part of a cell. Light that leaves the source at different angles arrives at different times. The light between
- * two neighbouring angles is spread evenly over the times between theirs. */
+ * two neighbouring angles is spread evenly over the time between the arrivals of both. */
 static void add_part(const struct view *view, const struct cell *c, size_t ring, size_t skip, double zero,
                      double across, double along, struct sum *s)
 {
     const size_t n = (size_t)view->corona.angles;
     const double *parts[2] = { view->part + ring * n, view->part + (ring + skip) * n },
                  *times[2] = { view->time + ring * n, view->time + (ring + skip) * n };
-    /* Between two rings epsilon is interpolated as a power of r, and each angle's share of it linearly. */
+    /* Between two rings epsilon is interpolated as a power of r. The share of epsilon that each angle has is
+     * interpolated linearly. */
     const double in = view->log_epsilon[ring], out = view->log_epsilon[ring + skip],
                  power = exp((1 - across) * in + across * out) / ((1 - across) * exp(in) + across * exp(out));
     const double light = power * AT(light, across, along) * area_at(c, across, along), g = AT(g, across, along),
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    /* starts with the last angle, because it is the neighbour of the first one */
+    /* starts with the last angle as the predecessor of the first one */
     for (size_t k = n > 1 ? 0 : 1; k <= n; k++) {
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),
@@ -226,7 +229,7 @@ static struct cell cell_of(const struct view *view, int i, int j, int skip)
                            { &view->points[i + skip][j], &view->points[i + skip][next] } };
 }
 
-/* Sums the cells between every `skip`th ring and direction. */
+/* Adds the cells between every `skip`th ring and every `skip`th direction. */
 static void add_all(const struct view *view, double zero, int skip, struct sum *s)
 {
     for (int i = 0; i < RINGS; i += skip)
@@ -240,7 +243,7 @@ static void add_all(const struct view *view, double zero, int skip, struct sum *
         }
 }
 
-/* Writes the largest difference between the cumulative shares of x and y. */
+/* Finds the largest difference between the cumulative shares of two histograms. */
 static enum kd_status apart(const struct sum *x, const struct sum *y, double *worst, struct kd_error *error)
 {
     double *above = calloc(x->times + 1, sizeof *above);
@@ -258,7 +261,8 @@ static enum kd_status apart(const struct sum *x, const struct sum *y, double *wo
     return made ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for %zu times", x->times);
 }
 
-/* The gas is taken to emit as many photons as it receives, by the law of limb darkening. */
+/* Computes the strength of the line. The gas is taken to emit as many photons as it receives, by the law of limb
+ * darkening. */
 static void describe(const struct kd_echo_params *p, double total, struct kd_echo *echo)
 {
     echo->strength = total * kd_limb_scale(p->limb) / (M_PI * echo->direct.flux);
@@ -293,8 +297,8 @@ done:
     return status;
 }
 
-/* Light of the corona at a ring. mean: mean of t_1. of: mean of exp(2 pi i f (t_1 - mean)) at each frequency. */
-struct beat { double log_epsilon, mean, *of; /* real and imaginary parts */ };
+/* Light of the corona at a ring. mean: mean of t_1. of: mean of exp(2 pi i f (t_1 - mean)) at each frequency f. */
+struct beat { double log_epsilon, mean, *of; /* real and imaginary part for each frequency */ };
 
 static void fill_beat(const struct view *view, size_t i, const double *frequencies, size_t n, struct beat *beat)
 {

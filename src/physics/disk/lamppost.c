@@ -5,9 +5,9 @@
 
 #include <math.h>
 
-#define EXACT 1e-11 /* error of ln r */
+#define EXACT 1e-11 /* allowed error of ln r */
 
-/* Delta/(h^2 + a^2): the square of the source's redshift to infinity. */
+/* The square of the source's redshift to infinity, which is Delta/(h^2 + a^2). */
 static double source_redshift2(const struct kd_hole *hole, double h)
 {
     return kd_hole_delta(hole, h) / (h * h + hole->a * hole->a);
@@ -34,8 +34,8 @@ static double mismatch(const struct kd_hole *hole, double h, double delta, doubl
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* Finds the starting angle delta of the light that meets the ring, from a guess, by the secant method within a
- * bracket. */
+/* Finds the angle delta at which light that meets the ring leaves the source. It starts from a guess, and uses the
+ * secant method within a bracket. */
 static bool find(const struct kd_hole *hole, double h, double r, double slope, double *delta)
 {
     double low = 0, high = M_PI, x = *delta, before = NAN, f_before = NAN;
@@ -66,7 +66,7 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
             delta += fmin(lamp->step / slope, 0.5 * (M_PI - delta));
         if (!find(hole, h, r, slope, &delta))
             return false;
-        /* The slope of ln r in delta grows as r/h, so the step is scaled by the inverse of the slope. */
+        /* The slope of ln r in delta grows as r/h, so the step is scaled by the inverse of that slope. */
         double near = 1e-4 * fmin(1, 1 / slope) * fmin(delta, M_PI - delta);
         slope = (mismatch(hole, h, delta + near, r) - mismatch(hole, h, delta - near, r)) / (2 * near);
         if (!(slope > 0) || !isfinite(slope))
@@ -78,7 +78,7 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
     return true;
 }
 
-/* The cubic through four neighbouring nodes. */
+/* Interpolates by the cubic through four neighbouring nodes. */
 static double between(const struct kd_lamppost *lamp, const double *nodes, double r)
 {
     double at = (log(r) - lamp->first) / lamp->step, sum = 0;

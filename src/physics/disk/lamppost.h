@@ -9,13 +9,13 @@
 enum { KD_LAMPPOST_RINGS = 120 };
 
 struct kd_lamppost {
-    double first, step; /* ln r of the first node, and the even step in ln r */
+    double first, step; /* ln r of the first node; step in ln r between nodes */
     double log_epsilon[KD_LAMPPOST_RINGS];
-    double late[KD_LAMPPOST_RINGS]; /* coordinate time of the light from source to ring, minus r */
+    double late[KD_LAMPPOST_RINGS]; /* coordinate time that light takes from the source to each ring, minus r */
 };
 
-/* height: beyond the horizon. The table covers the radii from inner, which is the ISCO or larger, to outer. Returns
- * false if light does not reach a ring, which has not been observed. */
+/* Makes the table for radii from inner, which is the ISCO or larger, to outer. height: height of the source, which must
+ * be beyond the horizon. Returns false if light does not reach a ring, which has not been observed. */
 bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, double height, double photon_index,
                       double inner, double outer);
 
@@ -26,8 +26,8 @@ double kd_lamppost_at(const struct kd_lamppost *lamp, double r);
 /* Coordinate time that the light takes from the source to the ring at r. */
 double kd_lamppost_time(const struct kd_lamppost *lamp, double r);
 
-/* Radius at which light that leaves the source at delta meets the plane; 0: captured by the hole; INFINITY: it
- * escapes. */
+/* Radius at which light that leaves the source at the angle delta meets the plane; 0 if the hole captures it, INFINITY
+ * if it escapes. */
 double kd_lamppost_reach(const struct kd_hole *hole, double height, double delta);
 
 #endif

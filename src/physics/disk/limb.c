@@ -5,11 +5,11 @@
 #include <math.h>
 #include <pthread.h>
 
-/* Table of the scattered light over the fourth root of mu. In this variable the term mu ln(mu) of the H functions is
- * smooth enough for cubic interpolation. */
+/* Table of the scattered light, with nodes in the fourth root of mu. In this variable the term mu ln(mu) of the H
+ * functions is smooth enough for cubic interpolation. */
 enum { CELLS = 160 };
-static double table[CELLS + 3]; /* from one step below 0 to one step above 1, for interpolation in the cells at the ends
-                                 */
+/* values from one step below 0 to one step above 1, which interpolation in the cells at the ends needs */
+static double table[CELLS + 3];
 static pthread_once_t made = PTHREAD_ONCE_INIT;
 
 static void make(void)
@@ -21,7 +21,7 @@ static void make(void)
     kd_scattered_light(mu, CELLS + 1, light);
     for (int i = 0; i <= CELLS; i++)
         table[i + 1] = light[i].across + light[i].along;
-    /* continued by the cubic through the four nearest nodes */
+    /* the value below 0 continues the cubic through the four nearest nodes */
     table[0] = 4 * table[1] - 6 * table[2] + 4 * table[3] - table[4];
     table[CELLS + 2] = 4 * table[CELLS + 1] - 6 * table[CELLS] + 4 * table[CELLS - 1] - table[CELLS - 2];
 }
@@ -47,5 +47,5 @@ double kd_limb_at(enum kd_limb law, double mu)
     return 1;
 }
 
-/* For ln(1 + 1/mu) and for scattered light the integral is already 1/2. */
+/* Only Laor's law needs a factor: for ln(1 + 1/mu) and for scattered light the integral is already 1/2. */
 double kd_limb_scale(enum kd_limb law) { return law == KD_LIMB_LAOR ? 0.5 / (0.5 + 2.06 / 3) : 1; }

@@ -9,19 +9,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.03   /* mean spacing of rings in ln r */
-#define EDGE_ON 0.1 /* cos i below which the error of coarse sums does not yet fall as the square of their cells */
-#define WIDEST 0.1  /* change of ln r in a cell of the finest columns */
-/* spacing of rings at the brighter edge, relative to the mean spacing; at the other edge it is 2 minus this */
+#define STEP 0.03 /* mean spacing of rings in ln r */
+/* cos i below which the error of coarse sums does not yet decrease as the square of the cells' size */
+#define EDGE_ON 0.1
+#define WIDEST 0.1 /* change of ln r in a cell of the finest columns */
+/* spacing of rings at the brighter edge, relative to the mean spacing; at the other edge the relative spacing is 2
+ * minus this */
 #define BRIGHT 0.5
 enum {
     FEWEST = 64,
     MOST = 512,
     COARSEST = 16,
-    /* FEWEST, MOST: numbers of rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED:
-     * number of parts of a line; two sums are compared at the edges of these parts to estimate the error. */
+    /* FEWEST, MOST: limits of the number of rings. COARSEST: factor by which the coarsest sum has fewer rings and
+     * angles. LOOKED: number of parts into which a line is divided; two sums are compared at the edges of these parts
+     * to estimate the error. */
     LOOKED = 128,
-    COLUMNS = 256 /* the finest columns, in each part of the image */
+    COLUMNS = 256 /* number of the finest columns in each part of the image */
 };
 
 /* The light that the disk receives, for the emissivities that depend on it. */
@@ -44,14 +47,14 @@ static double emissivity(const struct kd_line_params *p, const struct received *
     return kd_corona_light_at(&received->corona, r);
 }
 
-/* A ring's image: places, energies and brightness in each direction; the first direction is repeated at the end. */
+/* A ring's image: place, energy and brightness in each direction. The first direction is repeated at the end. */
 struct ring {
     double alpha[KD_DISK_IMAGE_ANGLES + 1], beta[KD_DISK_IMAGE_ANGLES + 1], g[KD_DISK_IMAGE_ANGLES + 1],
         light[KD_DISK_IMAGE_ANGLES + 1];
 };
 
-/* The cells between two rings: the light of each, and its distribution of energies. This is the distribution of a
- * linear g over a parallelogram, with the corners at centre -+ (narrow +- wide)/2. */
+/* The cells between two rings. For each cell: its light, and the distribution of its energies. This is the distribution
+ * of a linear g over a parallelogram, with the corners at centre -+ (narrow +- wide)/2. */
 struct strip {
     double light[KD_DISK_IMAGE_ANGLES], centre[KD_DISK_IMAGE_ANGLES], narrow[KD_DISK_IMAGE_ANGLES],
         wide[KD_DISK_IMAGE_ANGLES];
@@ -59,9 +62,10 @@ struct strip {
 
 struct sum {
     const double *edges;
-    int bins, last; /* last: the bin that last received light, where the search starts, because neighbouring cells have
-                       similar energies */
-    double *in;     /* light in each bin */
+    /* last: index of the bin that last received light. A search starts there, because neighbouring cells have
+     * similar energies */
+    int bins, last;
+    double *in; /* light in each bin */
     double total;
 };
 
@@ -75,10 +79,11 @@ static int bin_of(struct sum *s, double g)
     return s->last = at;
 }
 
-/* Distribution of energies in a cell with linear g over a parallelogram. The fraction below an energy is quadratic
- * at both ends and linear between. */
+/* Distribution of the energies in a cell, for a linear g over a parallelogram. The fraction of light below an energy is
+ * a quadratic function at both ends and a linear one between them. */
 struct spread {
-    double low, narrow, all, slope, steep; /* all: narrow + wide; slope: 1/wide; steep: 1/(2 narrow wide) */
+    /* low: lowest energy. all: narrow + wide. slope: 1/wide. steep: 1/(2 narrow wide) */
+    double low, narrow, all, slope, steep;
 };
 
 static double share_below(const struct spread *s, double g)
@@ -111,10 +116,11 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
     }
 }
 
-/* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of their
- * second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a ring, the
- * shift improves the accuracy as much as twice as many directions would. Where f must stay positive, a node changes by
- * no more than half of its value. */
+/* Shifts nodes so that chords between them are more accurate. A chord between nodes at the distance h deviates from the
+ * curve by -h^2 f''/12 on average. If each node is shifted by a twelfth of its second difference, the remaining error
+ * is of order h^4. At the horns of a profile, where g is stationary along a ring, the shift improves the accuracy as
+ * much as twice as many directions would. Where f must stay positive, a node changes by no more than half of its value.
+ */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];
@@ -144,10 +150,11 @@ static void fill_ring(const struct kd_disk_image *image, const struct kd_line_pa
     straighten(ring->light, n, true);
 }
 
-/* Fills the cells between ring x and ring y, `apart` in ln r. Across a cell the light is a power of r. The area grows
- * with the length of its edges and with its width, which is about proportional to r. The product of light and area is
- * integrated by Simpson's rule, with the geometric mean of the light in the middle. The light-weighted mean of g
- * differs from its middle value by a twelfth of the products of the steps of g and of the light. */
+/* Fills the cells between two rings x and y, whose distance in ln r is `apart`. Across a cell the light is a power of
+ * r. The area of a cell grows with the length of its edges and with its width, which is about proportional to r. The
+ * product of light and area is integrated by Simpson's rule, with the geometric mean of the light in the middle. The
+ * light-weighted mean of g differs from its middle value by a twelfth of the products of the steps of g and of the
+ * light. */
 static void fill_strip(const struct ring *x, const struct ring *y, double apart, int n, struct strip *strip)
 {
     for (int j = 0; j < n; j++) {
@@ -184,7 +191,8 @@ struct work {
     struct strip strip;
 };
 
-/* Resolution of an integral: `coarse` times fewer rings and angles, and every `skip`th node of the table. */
+/* Resolution of an integral: it has `coarse` times fewer rings and angles than the finest one, and uses every `skip`th
+ * node of the table. */
 struct looks { int coarse, skip; };
 
 /* Adds the rings from p->inner to p->outer, between which the emissivity must have no break. */
@@ -196,9 +204,9 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
     int n = around / looks.coarse,
         m = (int)fmin(fmax(rings_of_coarsest, FEWEST / COARSEST), MOST / COARSEST) * (COARSEST / looks.coarse);
     struct ring *rings = work->rings;
-    bool outwards =
-        emissivity(p, received, p->outer) * p->outer * p->outer >
-        emissivity(p, received, p->inner) * p->inner * p->inner; /* light of a ring of equal width in ln r */
+    bool outwards = emissivity(p, received, p->outer) * p->outer * p->outer >
+                    /* compares the light of rings of equal width in ln r */
+                    emissivity(p, received, p->inner) * p->inner * p->inner;
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
         if (kd_pause_every((uint64_t)i, 4))
@@ -224,7 +232,8 @@ struct by_columns {
     };
 };
 
-/* g at the distance of `part` of a cell's width from its middle. The disk ends at its edges. */
+/* g beside the middle of a cell. part: distance from the middle, as a fraction of the cell's width. Radii are limited
+ * to the disk's edges. */
 static double beside(const struct by_columns *u, const struct kd_disk_cell *cell, double part)
 {
     const double aside = part * cell->width,
@@ -233,7 +242,8 @@ static double beside(const struct by_columns *u, const struct kd_disk_cell *cell
     return kd_disk_image_redshift(u->image, &gas, cell->alpha + aside);
 }
 
-/* The light of a cell is integrated by Simpson's rule. g is taken as linear in alpha, and in beta in each half. */
+/* Adds the light of a cell, integrated by Simpson's rule. g is taken as linear in alpha, and as linear in beta in each
+ * half of the cell. */
 static void add_column_cell(void *user, const struct kd_disk_cell *cell)
 {
     const struct by_columns *u = user;
@@ -256,7 +266,7 @@ static void add_column_cell(void *user, const struct kd_disk_cell *cell)
     }
 }
 
-/* The light of an image without a table. */
+/* Adds the light of an image without a table. */
 static void add_columns(const struct kd_disk_image *image, const struct kd_line_params *p,
                         const struct received *received, int coarse, struct sum *s)
 {
@@ -285,13 +295,13 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     add_rings(image, &outside, received, looks, work, s);
 }
 
-/* Edges of the bins of the sums. They are the requested edges, and more edges between and beyond them, because the
+/* Edges of the bins of the sums. They are the requested edges, and further edges between and beyond these, because the
  * error estimate needs many. If two sums are compared at a few edges only, they may agree there by chance. */
 struct edges {
     double *at;
-    int n, bins;       /* number of requested edges; bins of the sums */
+    int n, bins;       /* number of requested edges; number of bins of the sums */
     const double *own; /* the requested edges */
-    int first;         /* own[0] is at[first] */
+    int first;         /* index for which at[first] is own[0] */
 };
 
 /* Approximate range of energies of the line, from a few rings in a few directions. */
@@ -333,7 +343,8 @@ static struct range energies(const struct kd_disk_image *image, const struct kd_
     return range;
 }
 
-/* Adds edges in [from, to): one at `from`, and within the line one at each LOOKED-th part of its range. */
+/* Adds edges in the range [from, to): one at `from` and, within the line, one at each LOOKED-th part of the line's
+ * range. Returns their number. */
 static int divide(double from, double to, const struct range *line, double *at)
 {
     double low = fmax(from, line->low), high = fmin(to, line->high);
@@ -344,7 +355,7 @@ static int divide(double from, double to, const struct range *line, double *at)
     return n;
 }
 
-/* at: room for bins + 2 LOOKED + 4 edges. */
+/* Makes the edges. at: memory for bins + 2 LOOKED + 4 edges. */
 static struct edges edges_of(const struct range *line, const double *own, int bins, double *at)
 {
     struct edges e = { .at = at, .n = bins + 1, .own = own };
@@ -360,7 +371,8 @@ static struct edges edges_of(const struct range *line, const double *own, int bi
     return e;
 }
 
-/* Largest difference of the cumulative shares of two sums, counted from the first requested edge. */
+/* Largest difference between the cumulative shares of two sums. Shares are cumulated from the first requested edge on.
+ */
 static double apart(const struct edges *edges, const struct sum *x, const struct sum *y)
 {
     double off = 0, most = 0, first = 0;
@@ -374,7 +386,7 @@ static double apart(const struct edges *edges, const struct sum *x, const struct
     return most;
 }
 
-/* Combines the bins of the sum into the requested ones. */
+/* Combines the bins of a sum into the requested bins. */
 static void gather(const struct edges *edges, const struct sum *s, double *share)
 {
     for (int i = 0, at = edges->first; i < edges->n - 1; i++)
@@ -382,17 +394,17 @@ static void gather(const struct edges *edges, const struct sum *s, double *share
             share[i] += s->in[at] / s->total;
 }
 
-enum { LEVELS = 5 }; /* 16, 8, 4, 2 and 1 times fewer rings and angles */
+enum { LEVELS = 5 }; /* number of sums, which have 16, 8, 4, 2 and 1 times fewer rings and angles */
 
-/* Refines sums until the error is within the tolerance or no finer sum exists. There are at least three; the last
- * one, sums[*n], is the answer. Returns the estimated error.
+/* Computes finer and finer sums until the error is within the tolerance or no finer sum exists. At least three sums are
+ * computed. The last one, sums[*n], is the answer. Returns the estimated error.
  *
- * The error of the cells falls as the square of their size, so that halving changes the sum by three times the
- * remaining error. For safety three quarters of the difference are reported. Near edge-on, where this does not hold
- * yet, the whole difference is reported, from at least four sums. Two sums may agree by chance. The reported error is
- * therefore at least a quarter of the error that the halving before suggests. The error of the table falls as the sixth
- * power of its step, so that the sum with twice the step differs by 63 times the error. An eighth of the difference is
- * reported, and near edge-on a quarter. */
+ * The error due to the cells decreases as the square of their size. So halving the cells changes the sum by three times
+ * the remaining error. For safety three quarters of the change are reported as the error. Near edge-on, where this does
+ * not hold yet, the whole difference is reported, from at least four sums. Two sums may agree by chance. The reported
+ * error is therefore at least a quarter of the error that the halving before suggests. The error of the table decreases
+ * as the sixth power of its step, so that a sum with twice the step differs by 63 times the error. An eighth of this
+ * difference is added, and near edge-on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
                        const struct received *received, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)

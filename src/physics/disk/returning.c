@@ -18,13 +18,13 @@ enum {
     ORDERS = 5, /* number of crossings of the plane that are computed. Without spin, each further crossing has e^-pi
                  * of the light of the one before; next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the
                  * ISCO's light. */
-    SIDES = 16, /* Gauss points in chi, in each of at most PANELS panels */
+    SIDES = 16, /* number of Gauss points in chi, in each of at most PANELS panels */
     PANELS = 3,
-    DEPTH = 12, /* Gauss points along each chi */
+    DEPTH = 12, /* number of Gauss points along each chi */
 };
 
-/* A ray is traced by series if its E at infinity, divided by its energy in the frame of zero angular momentum, is below
- * this. For E -> 0 the labels L/E and Q/E^2 of the closed form grow without bound. */
+/* A ray is traced by series if the ratio of its E at infinity to its energy in the frame of zero angular momentum is
+ * below this. For E -> 0 the labels L/E and Q/E^2 of the closed form grow without bound. */
 #define SLOW 1e-3
 
 /* Gas on a circular orbit at r, and the frame of zero angular momentum there. */
@@ -43,8 +43,8 @@ static struct ring ring_of(const struct kd_hole *hole, double r)
                            .girth = sqrt(m.area / m.sigma) };
 }
 
-/* Light of energy 1 in the frame of zero angular momentum. energy, momentum, polar: E, L and |p_theta|. seen: its
- * energy in the gas's frame. */
+/* Light whose energy is 1 in the frame of zero angular momentum. energy, momentum, polar: E, L and |p_theta|. seen:
+ * energy of the light in the gas's frame. */
 struct light { double energy, momentum, polar, seen; };
 
 static struct light light_of(const struct ring *o, double sin_rho, double cos_chi)
@@ -56,11 +56,12 @@ static struct light light_of(const struct ring *o, double sin_rho, double cos_ch
                             .seen = o->ut * (o->lapse + (o->drag - o->omega) * l) };
 }
 
-/* sin(rho) from x = ln tan(rho/2). x resolves rho near 0 and near pi. This is needed because the dark disk round the
- * hole is a small part of the sky at large r, and nearly all of it close to the hole. */
+/* sin(rho) from x = ln tan(rho/2). The variable x resolves rho near 0 and near pi. This is needed because the dark disk
+ * round the hole is a small part of the sky for rings at large r, and nearly all of the sky for rings close to the
+ * hole. */
 static double sine(double x) { return 1 / cosh(x); }
 
-/* The radii of a ray of E > 0, in closed form. */
+/* The radii of a ray with E > 0, in closed form. */
 static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring *o, const struct light *p, double x,
                                    int n)
 {
@@ -74,7 +75,7 @@ static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring
     return kd_null_trace_radii(&ray);
 }
 
-/* 1/r of crossing n. INFINITY if the ray is captured before, -INFINITY if it escapes before. */
+/* 1/r of crossing n; INFINITY if the ray is captured before that crossing, -INFINITY if it escapes before it. */
 static double follow(const struct kd_hole *hole, const struct ring *o, double cos_chi, double x, int n)
 {
     const struct light p = light_of(o, sine(x), cos_chi);
@@ -89,7 +90,7 @@ static double follow(const struct kd_hole *hole, const struct ring *o, double co
     return n < path.crossings ? 1 / path.crossing[n].r : path.fate == KD_NULL_ESCAPED ? -INFINITY : INFINITY;
 }
 
-/* The x at which crossing n is at 1/r = w, from a guess. 1/r falls with x. */
+/* Finds the x for which crossing n is at 1/r = w, from a guess. 1/r decreases with x. */
 static double edge(const struct kd_hole *hole, const struct ring *o, double cos_chi, int n, double w, double guess)
 {
     double low = -60, high = 40, x = guess, x0 = NAN, f0 = NAN, step = 0.25;
@@ -115,9 +116,9 @@ static double edge(const struct kd_hole *hole, const struct ring *o, double cos_
     return x;
 }
 
-/* Parts of the sky along one chi. The disk is seen in order n from in[n] to out[n] < in[n - 1]. Light between out[n]
- * and in[n - 1] escapes, and light below in[orders - 1] falls in. The second order exists where a ray can pass between
- * the ISCO and the hole. */
+/* Parts of the sky along one chi, as ranges of x. The disk is seen in order n from in[n] to out[n], which is less than
+ * in[n - 1]. Light between out[n] and in[n - 1] escapes, and light below in[orders - 1] falls in. The second order
+ * exists where a ray can pass between the ISCO and the hole. */
 struct parts {
     int orders;
     double in[ORDERS], out[ORDERS];
@@ -138,7 +139,7 @@ static struct parts parts_of(const struct kd_hole *hole, const struct ring *o, d
     return parts;
 }
 
-/* Gauss points on (0, 1) and their weights: in chi (side), and along one chi (depth). */
+/* Gauss points on (0, 1) and their weights. side: points in chi. depth: points along one chi. */
 struct rule { double side[SIDES], side_weight[SIDES], depth[DEPTH], depth_weight[DEPTH]; };
 
 static struct rule rule_of(void)
@@ -149,20 +150,21 @@ static struct rule rule_of(void)
     return rule;
 }
 
-/* 1/r of the second crossing of the ray whose first crossing is at the ISCO. */
+/* 1/r of the second crossing, for the ray whose first crossing is at the ISCO. */
 static double beyond(const struct kd_hole *hole, const struct ring *o, double isco, double cos_chi, double *guess)
 {
     *guess = edge(hole, o, cos_chi, 0, 1 / isco, *guess);
     return follow(hole, o, cos_chi, *guess, 1);
 }
 
-/* The sky of a ring, one chi after the other. Parts of the sky are smooth functions of chi within each panel. Panels
- * end at the chi for which the second crossing (`beyond`) is at infinity, and for which it is at the ISCO. Integrands
- * are smooth in chi up to the plane, where mu vanishes as sin(chi). */
+/* The sky of a ring, which is processed one chi after the other. The limits of the parts of the sky are smooth
+ * functions of chi within each panel. Panels end at the values of chi for which the second crossing (see `beyond`) is
+ * at infinity, and for which it is at the ISCO. Integrands are smooth in chi up to the plane, where mu vanishes as
+ * sin(chi). */
 struct sky {
     int panels;
     double ends[PANELS + 1];
-    struct parts parts; /* parts of the sky for the last chi that was computed */
+    struct parts parts; /* parts of the sky for the chi that was computed last */
 };
 
 static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, double isco)
@@ -192,7 +194,7 @@ static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, doubl
 
 static int sides(const struct sky *sky) { return sky->panels * SIDES; }
 
-/* Moves on to chi i. Returns cos(chi) and sin(chi) dchi. */
+/* Computes the parts for chi number i. Returns cos(chi) and sin(chi) dchi. */
 struct side { double cos_chi, width; };
 
 static struct side side_of(const struct kd_hole *hole, const struct ring *o, double isco, const struct rule *rule,
@@ -203,8 +205,8 @@ static struct side side_of(const struct kd_hole *hole, const struct ring *o, dou
     return (struct side) { cos(chi), (ends[1] - ends[0]) * rule->side_weight[i % SIDES] * sin(chi) };
 }
 
-/* The part of one chi between two values of x. `wide`: it is integrated in rho; otherwise in t = cot(rho/2), because at
- * large r the light of the disk arrives close to the dark disk. */
+/* The part of one chi between two values of x. wide: true if the part is integrated in rho. Otherwise it is integrated
+ * in t = cot(rho/2), because at large r the light of the disk arrives close to the dark disk. */
 struct strip {
     struct side side;
     double from, to;
@@ -221,7 +223,8 @@ static struct strip strip_wide(struct side side, double from, double to)
     return (struct strip) { side, 2 * atan(exp(from)), 2 * atan(exp(to)), true };
 }
 
-/* Returns mu dOmega of Gauss point k, and its x. mu dOmega = sin^2(rho) drho dcos(chi), drho = -2 dt/(1 + t^2). */
+/* Value of mu dOmega for Gauss point k of a strip, and the x of that point. mu dOmega = sin^2(rho) drho dcos(chi), with
+ * drho = -2 dt/(1 + t^2). */
 static double point_of(const struct strip *s, const struct rule *rule, int k, double *x)
 {
     const double place = s->from + (s->to - s->from) * rule->depth[k],
@@ -232,7 +235,7 @@ static double point_of(const struct strip *s, const struct rule *rule, int k, do
 
 static double emitted(enum kd_limb limb, double mu) { return kd_limb_at(limb, mu) * kd_limb_scale(limb) / M_PI; }
 
-/* Adds the shares of a ring's photons, and of their energy at infinity, that leave into a strip of the ring's sky. */
+/* Adds the light that a ring sends into a strip of its sky: shares of its photons, and of their energy at infinity. */
 static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule *rule, struct strip strip,
                       double *photons, double *energy)
 {
@@ -246,7 +249,7 @@ static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule
     }
 }
 
-/* Adds the light along one chi to the sums for its destinations. */
+/* Adds the light along one chi to the sum for each destination. */
 static void add_side(const struct ring *o, enum kd_limb limb, const struct rule *rule, const struct parts *parts,
                      struct side side, struct kd_returning_ring *sum)
 {
@@ -313,8 +316,8 @@ void kd_returning_rays(const struct kd_hole *hole, double r,
     }
 }
 
-/* Weights of Chebyshev's nodes for interpolation at s, in the barycentric form (J.-P. Berrut & L. N.
- * Trefethen 2004, SIAM Review 46, 501). */
+/* Weights of Chebyshev's nodes for interpolation at s, by the barycentric formula (J.-P. Berrut & L. N. Trefethen 2004,
+ * SIAM Review 46, 501). */
 static void weights_at(const double *nodes, double s, double *weights)
 {
     double sum = 0;
@@ -341,10 +344,10 @@ static double at_nodes(const double *nodes, const double *values, double s)
     return sum;
 }
 
-/* Light that rings receive, times r^3. flux, deficit and energy describe the light that the gas emits without returning
- * light. flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
+/* Light that the rings receive, times r^3. flux, deficit, energy: light from gas that emits no returned light. flux_of,
+ * deficit_of: matrices that give F_ret and L F_ret - l for light that is described by `more`. */
 struct kernel {
-    double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; energy at infinity */
+    double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; and energy at infinity */
     double flux_of[N][N], deficit_of[N][N];
     double stress_of[N][N]; /* matrix that gives r^3 F_t from the deficits */
 };
@@ -385,7 +388,8 @@ static void receive_along(struct kd_returning *table, struct kernel *kernel, int
     }
 }
 
-/* Takes the integral from the ISCO to each ring as the integral from s to 1 of the polynomial through the nodes. */
+/* Fills stress_of. The integral from the ISCO to a ring is the integral, from s to 1, of the polynomial through the
+ * nodes. */
 static void fill_stress(const struct kd_returning *table, const struct rule *rule, struct kernel *kernel)
 {
     for (int i = 0; i < N; i++) {
@@ -411,7 +415,7 @@ static double times(const double *row, const double *x)
     return sum;
 }
 
-/* Each step adds one more scattering. */
+/* Iterates until the disk's flux converges. Each step adds one more scattering. */
 static void converge(struct kd_returning *table, const struct kernel *kernel)
 {
     double change = 1;
@@ -432,8 +436,8 @@ static void converge(struct kd_returning *table, const struct kernel *kernel)
     }
 }
 
-/* Integrals over the disk, with 4 pi r dr = 8 pi r_isco^2 ds/s^5, divided by the efficiency, which is the integral of
- * F_0 E. */
+/* Integrates the shares over the disk, with 4 pi r dr = 8 pi r_isco^2 ds/s^5, and divides them by the efficiency, which
+ * is the integral of F_0 E. */
 static void share_out(struct kd_returning *table, const struct kernel *kernel)
 {
     enum { POINTS = 96 };
@@ -457,8 +461,8 @@ static void share_out(struct kd_returning *table, const struct kernel *kernel)
     table->error = fmax(fabs(arrives / table->first.returns - 1), fabs(total(&table->lastly) - 1));
 }
 
-/* Finds the largest F within 4 ISCO: on a grid, then by ternary search between the neighbours of the grid's largest
- * value. */
+/* Finds the largest F within 4 times the ISCO. It takes the largest value on a grid, and then a ternary search between
+ * that value's neighbours. */
 static void find_hottest(struct kd_returning *table)
 {
     enum { CELLS = 256, THIRDS = 40 };
@@ -480,7 +484,8 @@ static void find_hottest(struct kd_returning *table)
     table->largest = kd_returning_flux(table, table->hottest);
 }
 
-/* One ring's row of the kernel and its shares of light do not depend on other rings, so rings are made in parallel. */
+/* State for making rings in parallel. A ring's row of the kernel and its shares of light do not depend on other rings.
+ */
 struct making {
     struct kd_returning *table;
     struct kernel kernel;
@@ -528,7 +533,7 @@ static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd
     return true;
 }
 
-/* The tables that were used last; and for more tables, their largest fluxes. used: 0 for an empty entry. */
+/* Cache: the tables that were used last and, for more tables, their largest fluxes. used: 0 if the entry is empty. */
 enum { KEPT = 8, LARGEST = 256 };
 static struct kept {
     struct kd_returning table;

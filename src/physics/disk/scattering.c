@@ -6,8 +6,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Nodes of Gauss-Legendre quadrature. In the variable s, mu = s^2, the infinite slope of H at mu = 0 is harmless:
- * errors are some 1e-9. */
+/* Number of nodes of Gauss-Legendre quadrature. In the variable s, with mu = s^2, the infinite slope of H at mu = 0 is
+ * harmless, and errors are some 1e-9. */
 enum { NODES = 48, ROUNDS = 400 };
 struct rule { double mu[NODES], weight[NODES]; };
 
@@ -23,9 +23,9 @@ static struct rule gauss(void)
     return rule;
 }
 
-/* H(mu) for the characteristic function psi = scale (1 + two mu^2 + four mu^4): 1/H = sqrt(1 - 2 psi0) + the integral
- * of psi(m) m H(m)/(mu + m), where psi0 is the integral of psi (section 38, equation 12), from its values at the nodes.
- * root is that square root. */
+/* Parameters of H(mu) for the characteristic function psi = scale (1 + two mu^2 + four mu^4). 1/H = root + the integral
+ * of psi(m) m H(m)/(mu + m), with root = sqrt(1 - 2 psi0), where psi0 is the integral of psi (section 38, equation 12).
+ */
 struct law { double scale, two, four, root; };
 
 static double h_at(const struct rule *rule, const double *h, const struct law *law, double mu)
@@ -38,8 +38,8 @@ static double h_at(const struct rule *rule, const double *h, const struct law *l
     return 1 / sum;
 }
 
-/* With conservative scattering (2 psi0 = 1) plain iteration oscillates about the solution. The mean of two successive
- * iterates converges. */
+/* Solves for H at the nodes by iteration. With conservative scattering (2 psi0 = 1) plain iteration oscillates about
+ * the solution. The mean of two successive iterates converges. */
 static void solve(const struct rule *rule, const struct law *law, double h[NODES])
 {
     for (int i = 0; i < NODES; i++)
@@ -57,7 +57,7 @@ static void solve(const struct rule *rule, const struct law *law, double h[NODES
     }
 }
 
-/* H_l and H_r belong to psi = 3/4 (1 - mu^2) and 3/8 (1 - mu^2). From q H_l(1) = (1 + c) H_r(1) and q^2 = 2 (1 -
+/* H_l belongs to psi = 3/4 (1 - mu^2), and H_r to psi = 3/8 (1 - mu^2). From q H_l(1) = (1 + c) H_r(1) and q^2 = 2 (1 -
  * c^2) follows c = (2 k - 1)/(2 k + 1), with k = (H_l(1)/H_r(1))^2. */
 struct laws {
     struct rule rule;
@@ -89,8 +89,9 @@ void kd_scattered_light(const double *mu, size_t n, struct kd_scattered *out)
         };
 }
 
-/* psi = q mu H_l, phi = H_l (1 - c mu), chi = H_r (1 + c mu), zeta = q mu H_r/2; H of the first and second multiple
- * belong to 3/8 (1 - mu^2)(1 + 2 mu^2) and 3/16 (1 + mu^2)^2. */
+/* psi = q mu H_l, phi = H_l (1 - c mu), chi = H_r (1 + c mu), zeta = q mu H_r/2; The H functions for the first and for
+ * the second multiple of the azimuth have the characteristic functions 3/8 (1 - mu^2)(1 + 2 mu^2) and 3/16 (1 +
+ * mu^2)^2. */
 void kd_scattering_functions(const double *mu, size_t n, struct kd_scattering_functions *out)
 {
     static const struct law first = { 0.375, 1, -2, 0.54772255750516612 },
@@ -110,7 +111,8 @@ void kd_scattering_functions(const double *mu, size_t n, struct kd_scattering_fu
     }
 }
 
-/* The phase matrix of Rayleigh (section 17) at the cosines mu and -mu0, with the functions of section 70. */
+/* Rayleigh's phase matrix (section 17) for light that arrives at the cosine -mu0 and leaves at mu, with the functions
+ * of section 70. */
 void kd_scattering_reflect(const struct kd_scattering_functions *f, double mu, const struct kd_scattering_functions *g,
                            double mu0, const double light[3], struct kd_reflected_stokes *out)
 {

@@ -6,7 +6,8 @@
 
 #define CM3 1e6
 #define GHZ 1e9
-#define CLASSICAL (KD_CHARGE_C * KD_CHARGE_C / (4 * M_PI * KD_EPSILON_0)) /* e^2, J m */
+/* e^2 in Gaussian units, as e^2/(4 pi epsilon_0), J m */
+#define CLASSICAL (KD_CHARGE_C * KD_CHARGE_C / (4 * M_PI * KD_EPSILON_0))
 
 double kd_synchrotron_light_unit(void) { return CLASSICAL / KD_C_M_S * CM3 * GHZ; }
 
@@ -15,7 +16,7 @@ double kd_synchrotron_depth_unit(void)
     return kd_synchrotron_light_unit() * KD_C_M_S * KD_C_M_S / (2 * KD_H_J_S * GHZ * GHZ * GHZ);
 }
 
-/* log2 of e^2/(m_e c) cm^-3/GHz in the unit of absorptivity. */
+/* log2 of e^2/(m_e c) cm^-3/GHz, in the kernels' unit of absorptivity. */
 static double depth_scale(void)
 {
     return log2(CLASSICAL / (KD_ELECTRON_KG * KD_C_M_S) * CM3 / GHZ / kd_synchrotron_depth_unit());
@@ -48,7 +49,7 @@ struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa)
 
 struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kappa)
 {
-    const double deep = pow(3 / kappa, 4.75) + 0.6; /* the exponent s for I */
+    const double deep = pow(3 / kappa, 4.75) + 0.6; /* the exponent s of the laws' smooth joint, for I */
     return (struct kd_synchrotron_kappa_polarised) {
         .light_q_high = log2(0.64 + kappa / 50),
         .light_q_sharp = 3.7 * pow(kappa, -1.6),
@@ -63,8 +64,8 @@ struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kapp
     };
 }
 
-/* Since c = a + 1, Euler's integral makes z^a 2F1 equal to a times the integral of s^(a - 1) (1 + s)^-b from 0 to z.
- * In ln s, by Simpson's rule. */
+/* The hypergeometric function 2F1(a, b; c; -z) has c = a + 1. By Euler's integral, z^a 2F1 is then a times the integral
+ * of s^(a - 1) (1 + s)^-b from 0 to z. It is computed in the variable ln s by Simpson's rule. */
 void kd_synchrotron_kappa_table(double kappa, double first, double step, int n, double *out)
 {
     enum { PARTS = 8 };

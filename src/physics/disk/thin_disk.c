@@ -11,7 +11,7 @@
  * order at the ISCO. */
 static double log_term(double a, double x, double x0, double root, double other1, double other2)
 {
-    if (root == 0) /* for a = 0, (root - a)^2 / root tends to 0 */
+    if (root == 0) /* for a = 0, where root is 0, the limit of (root - a)^2 / root is 0 */
         return 0;
     double k = 3 * (root - a) * (root - a) / (root * (root - other1) * (root - other2));
     return k * log1p((x - x0) / (x0 - root));
@@ -30,7 +30,8 @@ static double log_term(double a, double x, double x0, double root, double other1
  * with 2ry - 4s sigma = (2y (y (s + a) - sigma) - 4sn)/(s + a) for a > 0, where it cancels next to r = 1. */
 struct charged {
     const struct kd_hole *hole;
-    double y0, s0, gap, turns; /* y0, s0: at the ISCO */
+    /* y0, s0: values at the ISCO. gap: distance of s0 from the photon orbit. turns: ln(1 + (s - s0)/gap) */
+    double y0, s0, gap, turns;
     double c[6];
 };
 
@@ -51,7 +52,7 @@ static struct charged charged_of(const struct kd_hole *hole)
     return o;
 }
 
-/* X over s - s_0. */
+/* X divided by s - s_0. */
 static double charged_excess(const struct charged *o, double beyond)
 {
     double sum = 0;
@@ -60,7 +61,8 @@ static double charged_excess(const struct charged *o, double beyond)
     return sum;
 }
 
-static struct kd_kerr_ring charged_ring(const struct charged *o, double beyond) /* beyond: s - s_0 */
+/* The ring at the place s = s_0 + beyond. */
+static struct kd_kerr_ring charged_ring(const struct charged *o, double beyond)
 {
     return kd_kerr_ring_at(o->hole, o->y0 + beyond * (2 * o->s0 + beyond));
 }
@@ -91,7 +93,8 @@ static double charged_flux(const struct kd_hole *hole, double r)
     return fmax(0, (3 * r - 4 * q2) / (2 * at.s * r * at.p2) * bracket) / (4 * M_PI * r);
 }
 
-/* A function that is positive where the flux grows with r, at the place s = s_0 + beyond. (P^2)' = 2r - 3 + a/s. */
+/* A function of the place s = s_0 + beyond that is positive where the flux grows with r. It uses (P^2)' = 2r - 3 + a/s.
+ */
 static double charged_growth(const void *user, double beyond)
 {
     struct charged o = *(const struct charged *)user;
@@ -117,7 +120,7 @@ double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r)
     if (!(r > r0))
         return 0;
     double x = sqrt(r), x0 = sqrt(r0), dx = (r - r0) / (x + x0);
-    /* Roots of x^3 - 3x + 2a; the middle one as a sine, which is accurate for a -> 0. */
+    /* Roots of x^3 - 3x + 2a. The middle root is computed by a sine, which is accurate for a -> 0. */
     double x1 = 2 * cos((acos(a) - M_PI) / 3), x2 = 2 * sin(asin(a) / 3), x3 = -2 * cos(acos(a) / 3);
     double bracket = dx - 1.5 * a * log1p(dx / x0) - log_term(a, x, x0, x1, x2, x3) - log_term(a, x, x0, x2, x1, x3) -
                      log_term(a, x, x0, x3, x1, x2);
@@ -138,9 +141,9 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
  * (Eq. 15n is the integral of B' from x0.) Near the ISCO, where the logarithms of 15n cancel, quadrature of B' keeps
  * all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
 struct rise {
-    /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, which is that of the photon orbit */
+    /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, which is the root at the photon orbit */
     double a, y0, gap;
-    double turns; /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
+    double turns; /* ln(1 + (x - x0)/gap), the variable in which B' is smooth even for a nearly extremal hole */
 };
 
 static double below(double a, double y) { return y * y * (y + 3) - 2 * (1 - a); }
@@ -159,7 +162,7 @@ static double share(double along, double left, const void *context)
     return r->turns * (beyond + r->gap) * slope_of_bracket(r->a, r->y0, beyond);
 }
 
-/* A function that is positive where the flux grows with r, at the place x = x0 + span. */
+/* A function of the place x = x0 + span that is positive where the flux grows with r. */
 static double growth(const void *user, double span)
 {
     struct rise r = *(const struct rise *)user;
@@ -174,14 +177,15 @@ double kd_disk_peak_page_thorne(const struct kd_hole *hole)
         return charged_peak(hole);
     double x0 = sqrt(kd_kerr_isco(hole));
     struct rise r = { .a = hole->a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(hole)) };
-    /* The maximum is below 2.1 r_isco for all spins, and at the ISCO for an extremal hole. */
+    /* The search covers radii up to about 2.1 r_isco, where the maximum lies for all spins; for an extremal hole it is
+     * at the ISCO. */
     double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
     return x * x;
 }
 
 double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole)
 {
-    return 49. / 36 * kd_kerr_isco(hole); /* here the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
+    return 49. / 36 * kd_kerr_isco(hole); /* the derivative of (1 - sqrt(r_in/r))/r^3 vanishes here */
 }
 
 double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)
@@ -189,11 +193,11 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)
     return 1 / (kd_kerr_ut(hole, r) * (1 - kd_kerr_omega(hole, r) * lambda));
 }
 
-/* -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a E)]/r^2, sigma being the sign of p^r, with the radial
- * potentials R = P^2 - Delta K of the photon and S = U^2 - Delta (r^2 + J^2) of the gas. u^r has a closed form that
- * does not cancel at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3, and with charge J^2 (w - w0)^3 (2 - q^2 (3 w0 + w))
- * at w = 1/r. For sigma < 0 the bracket cancels at the horizon;
- * multiplied by its conjugate P U + sqrt(R S) it does not. */
+/* The energy of the photon in the frame of the gas is -p.u = [(P U + sigma sqrt(R S))/Delta - (lambda - a)(L - a
+ * E)]/r^2. sigma is the sign of p^r. R = P^2 - Delta K is the radial potential of the photon, and S = U^2 - Delta (r^2
+ * + J^2) that of the gas. u^r has a closed form without cancellation at the ISCO: (u^r)^2 = 2/(3 r0) (r0/r - 1)^3, and
+ * with charge J^2 (w - w0)^3 (2 - q^2 (3 w0 + w)) at w = 1/r. For sigma < 0 the terms P U and sqrt(R S) cancel at the
+ * horizon. Multiplying by the conjugate P U + sqrt(R S) avoids this. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards)
 {
     const double a = hole->a;

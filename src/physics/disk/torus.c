@@ -5,9 +5,9 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* ln h up to a constant: equation 3.6 with lapse and omega of the metric, g_phiphi = A sin^2/Sigma and
- * U^2 = u_phi^2/g_phiphi, where (u^t u_phi)^2 = l^2 equals U^2 (1 + U^2) g_phiphi/lapse^2. The shader uses the same
- * constant (emit/plasma.glsl). */
+/* ln h up to a constant. Equation 3.6 gives it from lapse and omega of the metric, with g_phiphi = A sin^2/Sigma and
+ * U^2 = u_phi^2/g_phiphi; (u^t u_phi)^2 = l^2 equals U^2 (1 + U^2) g_phiphi/lapse^2. The shader uses the same constant
+ * (emit/plasma.glsl). */
 static double enthalpy(const struct kd_hole *hole, double l, double r, double u)
 {
     const struct kd_metric_scalars m = kd_metric_at(hole, r, u);
@@ -20,7 +20,7 @@ double kd_torus_log_enthalpy(const struct kd_torus *torus, const struct kd_hole 
     return enthalpy(hole, torus->l, r, u) - torus->edge;
 }
 
-/* Radius where ln h vanishes, by bisection between a radius inside the torus and one outside. */
+/* Outer radius where ln h vanishes, by bisection between a radius inside the torus and one outside. */
 static double outer_of(const struct kd_torus *torus, const struct kd_hole *hole, double within, double beyond)
 {
     for (int i = 0; i < 60; i++) {

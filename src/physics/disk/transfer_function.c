@@ -4,25 +4,27 @@
 
 #include <math.h>
 
-/* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy determines alpha. Along a line of constant alpha the
- * visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring is seen at
- * alpha twice if that minimum is below r. At the ring's ends the minimum equals r. This is also true next to edge-on,
- * where the image of the far side lies high above the image of the near side. */
+/* Since g = 1/(u^t (1 + Omega alpha sin i)), the energy of a ring's light determines alpha. Along a line of constant
+ * alpha, the visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring
+ * of radius r is seen twice on the line if that minimum is below r, and once, at an end of the ring, if the minimum
+ * equals r. This also holds next to edge-on, where the image of the far side lies high above the image of the near
+ * side. */
 
 #define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
-/* relative width of the bracket of the minimum; the error of the minimum is the square of this width */
+/* relative width at which the bracket of the minimum is narrow enough; the error of the minimum value is the square of
+ * this width */
 #define LEAST_WIDTH 1e-8
-/* step of central differences, as a fraction of the distance of the two places, or of the depth of the minimum below
- * the ring. The error of the differences is proportional to the square of the step */
+/* step of central differences, as a fraction of the distance between the two places, or of the depth of the minimum
+ * below the ring. The error of the differences is proportional to the square of the step */
 #define APART 1e-4
 
 struct line {
     const struct kd_disk_image *image;
     double r, alpha;
-    int side; /* side of the ring's two ends; 1: alpha > 0, the red end */
+    int side; /* side of the two ends on which the search is; 1 means alpha > 0, the red end */
 };
 
-/* Visible radius at beta, less the ring's radius. Light from infinity counts as light from far out. */
+/* Visible radius at beta minus the ring's radius. If the ray escapes, the radius counts as large. */
 static double off(const void *user, double beta)
 {
     const struct line *s = user;
@@ -30,10 +32,11 @@ static double off(const void *user, double beta)
     return (isfinite(r) ? r : 1e300) - s->r;
 }
 
-/* The line is searched up to this distance upwards and downwards, where the visible radius exceeds the ring's. */
+/* Distance, upwards and downwards, up to which the line is searched. There the visible radius exceeds the ring's. */
 static double reach(const struct line *s) { return 2 * s->r + 20; }
 
-/* The beta of the minimum radius; if below_is_enough, any beta whose radius is below the ring's. */
+/* The beta of the smallest visible radius. If below_is_enough is true, it may be any beta whose radius is below the
+ * ring's. */
 static double least(const struct line *s, bool below_is_enough)
 {
     double low = -reach(s), high = reach(s), a = high - SHORTER * (high - low), b = low + SHORTER * (high - low),
@@ -77,8 +80,8 @@ bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_
     return ring.g_max > ring.g_min;
 }
 
-/* |dr/d beta| at one alpha next to edge-on, from the places of two neighbouring rings. There the near side of a ring is
- * a strip of width r cos i. */
+/* |dr/d beta| at constant alpha next to edge-on, from the places of two neighbouring rings. The near side of a ring is
+ * a strip of width r cos i there. */
 static double steepness(const struct line *s, double lowest, int k)
 {
     const double depth = fmin(1, -off(s, lowest) / s->r), apart = APART * depth, end = k ? reach(s) : -reach(s);
@@ -92,18 +95,18 @@ bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_
 {
     const struct kd_disk_ring gas = kd_disk_image_gas(image, ring->r);
     const double span = ring->g_max - ring->g_min, g = ring->g_min + g_star * span;
-    /* 1/g is linear in alpha. */
+    /* interpolates alpha, as 1/g is linear in alpha */
     const double part = (1 / g - 1 / ring->g_min) / (1 / ring->g_max - 1 / ring->g_min);
     const struct line s = { image, ring->r, ring->alpha[0] + part * (ring->alpha[1] - ring->alpha[0]), 0 };
     const bool edge_on = !image->angles;
     const double middle = least(&s, !edge_on),
-                 slope = g * g * gas.ut * fabs(gas.omega) * image->sin_i; /* |dg/d alpha| at one r */
+                 slope = g * g * gas.ut * fabs(gas.omega) * image->sin_i; /* |dg/d alpha| at constant r */
     const double beta[2] = { kd_root(off, &s, -reach(&s), middle), kd_root(off, &s, middle, reach(&s)) },
                  apart = APART * (beta[1] - beta[0]);
     for (int k = 0; k < 2; k++) {
-        const double steep =
-            edge_on ? steepness(&s, middle, k)
-                    : fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart); /* |dr/d beta| */
+        const double steep = edge_on ? steepness(&s, middle, k)
+                                     /* |dr/d beta| at constant alpha */
+                                     : fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart);
         out[k] = (struct kd_transfer) { g * sqrt(g_star * (1 - g_star)) * span / (M_PI * ring->r * slope * steep),
                                         kd_disk_image_light(image, &gas, s.alpha, beta[k]).mu, s.alpha, beta[k] };
         if (!isfinite(out[k].f) || !(fabs(off(&s, beta[k])) < 1e-6 * ring->r))

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Quarter turns are removed in degrees, where this is exact. `first`: 1 for cosines, which are a quarter turn ahead of
- * sines. Adding 0 avoids a negative zero. */
+/* Removes quarter turns from an angle in degrees, where this is exact, and returns the cosine or the sine of the
+ * result. first: 0 for sines, 1 for cosines, which are a quarter turn ahead. Adding 0 avoids a negative zero. */
 static double turned(double degrees, int first)
 {
     int quarter;

@@ -7,7 +7,8 @@
  * the eighth degree with a coefficient below 1/20, and 0.0095^8 / 20 = 3e-18. */
 static const double spread2 = 9e-5;
 
-/* Each step brings the arguments four times closer; arguments 1e300 apart take some 12 steps. */
+/* Limit of the number of duplications. Each one brings the arguments four times closer; arguments 1e300 apart take some
+ * 12. */
 enum { STEPS = 64 };
 
 static struct kd_carlson_arg arg_of(double x, double y, double z)
@@ -26,7 +27,7 @@ static double duplicate(struct kd_carlson_arg *s)
     return g;
 }
 
-/* x, y + z and y z. */
+/* x, y + z and y z, in which only symmetric functions of y and z occur. */
 struct plain { double x, sum, product; };
 
 static struct plain plain_of(const struct kd_carlson_arg *s)
@@ -58,10 +59,10 @@ double kd_carlson_rf_arg(struct kd_carlson_arg s)
     return series / sqrt(mean);
 }
 
-/* R_C(1, 1 + e), e > -1. */
+/* R_C(1, 1 + e) for e > -1. */
 static double rc_unit(double e)
 {
-    if (fabs(e) < 0.02) { /* sum of (-e)^k / (2k + 1) */
+    if (fabs(e) < 0.02) { /* uses the series, the sum of (-e)^k / (2k + 1) */
         double sum = 0;
         for (int k = 9; k >= 0; k--)
             sum = 1.0 / (2 * k + 1) - e * sum;
@@ -109,7 +110,7 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
         if (converged(x, yz) && y_z * y_z < spread2)
             break;
         double rp = sqrt(p), d = (rp + s.first) * (p + rp * s.sum + s.root);
-        /* fmax, because rounding must not make this product of positive terms negative */
+        /* fmax is needed because rounding must not make this product of positive terms negative */
         sum += scale / d * rc_unit(fmax(delta / (d * d), -1 + 1e-16));
         p = 0.25 * (p + s.first * s.sum + s.root);
         duplicate(&s);
@@ -123,23 +124,24 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
     return scale * series_j(e2, e3, e4, e5) / (mean * sqrt(mean)) + 6 * sum;
 }
 
-/* atanh(x)/x, from x and 1 - x^2. */
+/* atanh(x)/x, from x and rest = 1 - x^2. */
 static double atanh_over(double x, double rest)
 {
     double size = fabs(x);
     return size == 0 ? 1 : size < 0.5 ? atanh(x) / x : log((1 + size) / sqrt(rest)) / size;
 }
 
-/* With s = sqrt(|p - 1|) and t = sqrt(|q - 1|), R_C(1, p) is atan(s)/s for p > 1 and artanh(s)/s for p < 1. The
- * difference of the two arcs is the arc (atan or artanh) of x = (s - t)/(1 +- s t). */
+/* With s = sqrt(|p - 1|) and t = sqrt(|q - 1|), R_C(1, p) is atan(s)/s for p > 1 and artanh(s)/s for p < 1, and R_C(1,
+ * q) likewise with t. The difference of the two arcs is the arc (atan or artanh) of x = (s - t)/(1 +- s t). */
 double kd_carlson_rc_slope(double p, double q)
 {
-    enum { TERMS = 24 }; /* 0.25^24/49 = 7e-17 */
+    enum { TERMS = 24 }; /* the first omitted term is 0.25^24/49 = 7e-17 */
     if (!(p > 0 && q > 0))
         return NAN;
     double a = p - 1, b = q - 1, s = sqrt(fabs(a)), t = sqrt(fabs(b)), st = s * t;
     if (fabs(a) < 0.25 && fabs(b) < 0.25) {
-        double sum = 0, slope = 0; /* the series in a, and its divided difference: that of a f is f(a) + b f' */
+        /* sum: the series in a; slope: its divided difference. The divided difference of a f is f(a) + b f' */
+        double sum = 0, slope = 0;
         for (int k = TERMS; k >= 0; k--) {
             slope = sum + b * slope;
             sum = (k % 2 ? -1.0 : 1.0) / (2 * k + 1) + a * sum;
@@ -158,11 +160,12 @@ double kd_carlson_rc_slope(double p, double q)
     return (kd_carlson_rc(1, p) - kd_carlson_rc(1, q)) / (p - q);
 }
 
-/* R_{-5/2}(1/2, 1/2, 1/2, 1, 1; x, y, z, p, q) mean^(5/2) by DLMF 19.19.7; x, y_z = y + z, yz, p, q: deviations from
- * the mean. */
+/* R_{-5/2}(1/2, 1/2, 1/2, 1, 1; x, y, z, p, q) mean^(5/2) by the series DLMF 19.19.7. The arguments are deviations from
+ * the mean; y_z is y + z, and yz is y z. */
 static double series_slope(double x, double y_z, double yz, double p, double q)
 {
-    double c1 = x + y_z, c2 = x * y_z + yz, c3 = x * yz; /* symmetric functions of x, y, z, and of p, p, q, q */
+    /* c1 to c3: symmetric functions of x, y, z. The next ones: symmetric functions of p, p, q, q */
+    double c1 = x + y_z, c2 = x * y_z + yz, c3 = x * yz;
     double g = p + q, h = p * q, d1 = 2 * g, d2 = g * g + 2 * h, d3 = 2 * g * h, d4 = h * h;
     double e2 = c2 + c1 * d1 + d2, e3 = c3 + c2 * d1 + c1 * d2 + d3, e4 = c3 * d1 + c2 * d2 + c1 * d3 + d4,
            e5 = c3 * d2 + c2 * d3 + c1 * d4, e6 = c3 * d3 + c2 * d4, e7 = c3 * d4;
@@ -172,11 +175,12 @@ static double series_slope(double x, double y_z, double yz, double p, double q)
            (5.0 / 19) * (0.9375 * e2 * e2 * e3 - 0.75 * (e2 * e5 + e3 * e4) + 0.5 * e7);
 }
 
-/* The step of duplication adds 6 scale R_C(1, 1 + e)/d for each of p and q, as in R_J; here it is the divided
- * difference of this term, by those of d, delta = (p - x)(p - y)(p - z) and e = delta/d^2. */
+/* A step of duplication of R_J adds 6 scale R_C(1, 1 + e)/d for p. Here it adds the divided difference of this term
+ * between p and q. It follows from the divided differences of d, of delta = (p - x)(p - y)(p - z) and of e = delta/d^2.
+ */
 double kd_carlson_rj_slope(struct kd_carlson_arg s, double p, double q)
 {
-    if (p < q) /* otherwise e would be a difference of large numbers if p is far smaller */
+    if (p < q) /* exchanges p and q, because e would be a difference of large numbers if p were far smaller */
         return kd_carlson_rj_slope(s, q, p);
     if (!(s.first >= 0 && s.sum > 0 && s.root >= 0 && p > 0 && q > 0) || (s.first == 0 && s.root == 0))
         return NAN;
@@ -267,7 +271,7 @@ double kd_carlson_rj(double x, double y, double z, double p)
     sort(&x, &y), sort(&y, &z), sort(&x, &y);
     if (p > 0)
         return kd_carlson_rj_arg(arg_of(z, x, y), p);
-    /* DLMF 19.20.14, with y the middle argument so that the new p is positive. */
+    /* Uses DLMF 19.20.14, with y the middle argument so that the new p is positive. */
     double q = -p, shift = (z - y) * (y - x) / (y + q), up = y + shift, xz = x * z;
     double third = x == 0 ? 0 : 3 * sqrt(xz * y / (xz + up * q)) * kd_carlson_rc(xz + up * q, up * q);
     double first = shift == 0 ? 0 : shift * kd_carlson_rj_arg(arg_of(z, x, y), up);

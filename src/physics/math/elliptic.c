@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* phi = turns pi + rest, |rest| <= pi/2; s and c are sine and cosine of the rest. */
+/* An angle phi = turns pi + rest, with |rest| <= pi/2. s, c: sine and cosine of the rest. */
 struct reduced { double turns, s, c; };
 
 static struct reduced reduce(double phi)
@@ -41,7 +41,7 @@ double kd_elliptic_pi(double n, double phi, double m)
 
 double kd_elliptic_k(double m) { return kd_carlson_rf(0, 1 - m, 1); }
 
-/* DLMF 19.25.1 in the form without cancellation near m = 1. */
+/* E(m) by DLMF 19.25.1, in the form without cancellation near m = 1. */
 double kd_elliptic_e_complete(double m)
 {
     if (m == 1)
@@ -55,13 +55,14 @@ double kd_elliptic_pi_complete(double n, double m)
     return kd_carlson_rf(0, 1 - m, 1) + (n == 0 ? 0 : n * kd_carlson_rj(0, 1 - m, 1, 1 - n) / 3);
 }
 
-/* Level n of the arithmetic-geometric mean has the modulus k_n = (a_n - b_n)/(a_n + b_n) of the level before. With c
- * = cn/sn the descending transformation (DLMF 22.7.2-4) reads, going up,
+/* A level n of the arithmetic-geometric mean has the numbers a_n and b_n, from which the modulus of the next level is
+ * k_{n+1} = (a_n - b_n)/(a_n + b_n). With c = cn/sn, the descending transformation (DLMF 22.7.2-4) from level n + 1
+ * back to level n is
  *
  *   c_n = c_{n+1} dn_{n+1} a_{n+1}/a_n        dn_n = (b_n + a_{n+1} c_{n+1}^2)/(a_n + a_{n+1} c_{n+1}^2)
  *
- * and nothing is subtracted. So near m = 1, where the recursion on the amplitude loses half its digits, cn and dn
- * keep theirs. */
+ * Nothing is subtracted. So cn and dn keep all digits near m = 1, where the usual recursion on the amplitude loses half
+ * of them. */
 struct kd_jacobi kd_jacobi(double u, double m, double m1)
 {
     if (!(m >= 0 && m1 >= 0))
@@ -73,8 +74,8 @@ struct kd_jacobi kd_jacobi(double u, double m, double m1)
     double a[16], b[16];
     int n = 0;
     a[0] = 1, b[0] = sqrt(m1);
-    /* Converges quadratically: a relative difference of 1e-8 is 1e-17 at the next level. 15 levels suffice for m1 =
-     * 1e-300. */
+    /* The mean converges quadratically: after a relative difference of 1e-8, the difference at the next level is 1e-17.
+     * 15 levels suffice for m1 = 1e-300. */
     for (; n < 15 && fabs(a[n] - b[n]) > 1e-8 * a[n]; n++) {
         a[n + 1] = 0.5 * (a[n] + b[n]);
         b[n + 1] = sqrt(a[n] * b[n]);

@@ -12,7 +12,7 @@ double kd_polynomial_at(const double *c, int degree, double x)
     return sum;
 }
 
-/* True if the value at x is zero within rounding. */
+/* True if the polynomial's value at x is zero within rounding. */
 static bool vanishes(const double *c, int degree, double x)
 {
     double size = fabs(c[degree]);
@@ -21,7 +21,8 @@ static bool vanishes(const double *c, int degree, double x)
     return fabs(kd_polynomial_at(c, degree, x)) <= 8 * DBL_EPSILON * size;
 }
 
-/* Newton's method within a bracket of opposite signs, in which the polynomial is monotone. */
+/* Finds the root between two points where the polynomial has opposite signs and is monotone, by Newton's method within
+ * this bracket. */
 static double between(const double *c, int degree, double low, double high)
 {
     bool rising = kd_polynomial_at(c, degree, low) < 0;
@@ -64,7 +65,7 @@ int kd_polynomial_roots(const double *c, int degree, double low, double high, do
         n_turns = kd_polynomial_roots(slope, degree - 1, low, high, turns);
     turns[n_turns++] = high;
     double left = low;
-    bool touched = false; /* true: the left end is a root that was already counted */
+    bool touched = false; /* true if the left end is a root that was already counted */
     for (int i = 0; i < n_turns && n < degree; i++) {
         double right = turns[i], f_left = kd_polynomial_at(c, degree, left),
                f_right = kd_polynomial_at(c, degree, right);

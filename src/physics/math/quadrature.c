@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* x = 1/(1 + exp(-pi sinh t)), so that dx/dt = pi cosh(t) x y. At |t| = 4.5 x y is 1e-61: the contribution beyond,
- * even of an inverse square root at the end, is below 1e-30. */
+/* x = 1/(1 + exp(-pi sinh t)), so that dx/dt = pi cosh(t) x y. At |t| = 4.5 the product x y is 1e-61. Values beyond
+ * contribute less than 1e-30, even if the integrand has an inverse square root at the end. */
 static const double reach = 4.5;
 
 static double term(kd_integrand f, const void *context, double t)
@@ -22,7 +22,7 @@ double kd_quadrature(kd_integrand f, const void *context)
         double more = 0;
         for (double t = step / 2; t <= reach; t += step)
             more += term(f, context, t) + term(f, context, -t);
-        /* stops here, because the mean of the two rules is the rule with half the step */
+        /* difference of two rules, whose mean is the rule with half the step */
         double change = more - sum;
         sum += more;
         step /= 2;
@@ -36,7 +36,8 @@ void kd_gauss_legendre(int n, double *nodes, double *weights)
 {
     for (int i = 0; i < n; i++) {
         double x = cos(M_PI * (n - 1 - i + 0.75) / (n + 0.5)), slope = 1;
-        for (int k = 0; k < 60; k++) { /* Newton's method, by the recurrence of the polynomials */
+        /* Newton's method for a root of the polynomial, which its recurrence evaluates */
+        for (int k = 0; k < 60; k++) {
             double p = x, before = 1;
             for (int j = 2; j <= n; j++) {
                 const double next = ((2 * j - 1) * x * p - (j - 1) * before) / j;

@@ -6,8 +6,8 @@
 
 struct point { double x, f; };
 
-/* The place to evaluate next, as a fraction of the way from a to b. It is found by inverse quadratic interpolation
- * through a, b and c if the inverse function is monotone there, and otherwise by bisection. */
+/* Place of the next evaluation, as a fraction of the way from a to b. It comes from inverse quadratic interpolation
+ * through a, b and c if the inverse function is monotone there, and otherwise from bisection. */
 static double fraction(struct point a, struct point b, struct point c)
 {
     double xi = (a.x - b.x) / (c.x - b.x), phi = (a.f - b.f) / (c.f - b.f);
@@ -25,7 +25,8 @@ double kd_root(kd_root_fn f, const void *user, double low, double high)
         return high;
     if (!(a.f < 0 ? b.f > 0 : b.f < 0))
         return NAN;
-    double floor = 0.01 * DBL_EPSILON * fmax(fabs(low), fabs(high)), t = 0.5; /* smallest bracket, for roots at 0 */
+    /* floor: width of the smallest bracket, for roots at 0 */
+    double floor = 0.01 * DBL_EPSILON * fmax(fabs(low), fabs(high)), t = 0.5;
     for (;;) {
         struct point x = { .x = a.x + t * (b.x - a.x) }, c;
         x.f = f(user, x.x);

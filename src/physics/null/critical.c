@@ -11,12 +11,15 @@ enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
-    double right, up2, inwards, energy; /* energy: energy at infinity over the measured energy */
-    double x, y2;                       /* relative to the centre; at a finite radius, components of the direction */
+    /* right, up2, inwards: direction, with the square of `up`. energy: ratio of the energy at infinity to the
+     * measured energy */
+    double right, up2, inwards, energy;
+    /* place relative to the centre, with the square of y; at a finite radius, components of the direction */
+    double x, y2;
 };
 
-/* The point of the critical curve that the orbit at the place `at` * sin i makes. Places are divided by sin i because
- * at a small inclination only orbits near the polar one are visible. */
+/* The point of the critical curve that belongs to the orbit at the place `at` * sin i. Places are divided by sin i
+ * because at a small inclination only orbits near the polar one are visible. */
 static struct place label(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -30,8 +33,9 @@ static struct place label(const struct kd_critical *c, double at)
     return p;
 }
 
-/* Direction in which the photon arrives, by R(r_o) of a double root (kd_shell_inside). Its p_theta may be the root of a
- * negative number here and is left out: in a level frame it affects only `up`. */
+/* Computes the direction from which the photon arrives. R(r_o) is that of a double root (kd_shell_inside). p_theta may
+ * be the root of a negative number here, and is left out: in a frame without motion along theta it affects only `up`.
+ */
 static void look(const struct kd_critical *c, struct place *p)
 {
     const struct kd_shell_orbit *o = &p->orbit;
@@ -41,7 +45,7 @@ static void look(const struct kd_critical *c, struct place *p)
     const struct kd_look seen = c->tetrad.falls && photon.radial <= 0
                                     ? kd_tetrad_look_inwards(&c->tetrad, &photon, p->beta2)
                                     : kd_tetrad_look(&c->tetrad, &photon);
-    double up = seen.energy / c->tetrad.theta.polar; /* divided by beta */
+    double up = seen.energy / c->tetrad.theta.polar; /* `up` divided by beta */
     p->right = seen.right;
     p->inwards = seen.inwards;
     p->energy = seen.energy;
@@ -115,12 +119,12 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
-    if (signbit(o->hole.a)) { /* the mirror image: retrograde orbits appear on the left */
+    if (signbit(o->hole.a)) { /* a hole with a < 0 gives the mirror image: retrograde orbits appear on the left */
         double swap = c.low;
         c.low = c.high, c.high = swap;
     }
     c.left = along(&c, c.low), c.right = along(&c, c.high);
-    if (c.right < c.left) /* the curve contains the direction of +e_r */
+    if (c.right < c.left) /* the curve surrounds the direction +e_r */
         c.right += 2 * M_PI;
     c.centre = 0.5 * (c.left + c.right);
     return c;
@@ -148,7 +152,7 @@ static struct place aim_at(const struct kd_critical *c, double angle)
         return see(c, c->high);
     struct aim aim = { c, cos(angle), sin(angle) };
     double at = angle == M_PI ? c->low : kd_root(miss, &aim, c->low, c->high);
-    if (isnan(at)) /* no root is sought, because the angle is within rounding of an end */
+    if (isnan(at)) /* uses the end itself, because the angle is within rounding of it */
         at = angle < 1 ? c->high : c->low;
     return see(c, at);
 }
@@ -205,12 +209,13 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* The coordinate (ln y - ln y_P)/(a sin i) of a place; its inverse is below. If it is small, it is w/(y_P sin i). */
+/* A coordinate of places that spaces radii evenly: (ln y - ln y_P)/(a sin i). The next function is its inverse. If this
+ * coordinate is small, it is w/(y_P sin i). */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
     const double scale = s->spin * c->sine, half = 0.5 * s->y_polar, w = scale * at / s->y_polar;
-    if (w < -0.5) /* y < y_P/2, where places are logarithmic */
+    if (w < -0.5) /* for y < y_P/2, where places are logarithmic */
         return (log(0.5) + scale * at / half + 1) / scale;
     return scale > 1e-8 ? log1p(w) / scale : at / s->y_polar;
 }
@@ -230,8 +235,8 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
     return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
-/* Sums over the upper half of the curve, with half the weight at the ends. Half the curve's width is subtracted from
- * rho, so that squares keep their digits. */
+/* Sums over the upper half of the curve, in which the ends have half the weight. Half the curve's width is subtracted
+ * from rho, so that squares keep their digits. */
 struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)
@@ -242,7 +247,8 @@ static void add(const struct kd_critical *c, double angle, double weight, struct
     s->area += weight * (isinf(c->observer.radius) ? 0.5 * rho * rho : 2 * half * half);
 }
 
-/* Largest height, where d(rho sin(angle)) = 0, by golden section between the neighbours of the highest sample. */
+/* Largest height of the curve, where d(rho sin(angle)) = 0. It is found by golden section between the neighbours of the
+ * highest sample. */
 static double height(const struct kd_critical *c, double step)
 {
     const double golden = 0.5 * (sqrt(5) - 1);
@@ -253,7 +259,7 @@ static double height(const struct kd_critical *c, double step)
             best = y, at = x;
     }
     double low = at - step, high = at + step;
-    while (high - low > 1e-8) { /* at a maximum the height is accurate to the square of this */
+    while (high - low > 1e-8) { /* the error of the largest height is the square of the bracket's width */
         double p = high - golden * (high - low), q = low + golden * (high - low);
         if (kd_critical_at(c, p).rho * sin(p) > kd_critical_at(c, q).rho * sin(q))
             high = q;
@@ -272,7 +278,7 @@ struct kd_critical_measures kd_critical_measure(const struct kd_critical *c)
         return (struct kd_critical_measures) { NAN, NAN, NAN, NAN, NAN, NAN, 0 };
     add(c, 0, 0.5, &s);
     add(c, M_PI, 0.5, &s);
-    int n = 1; /* intervals of the upper half */
+    int n = 1; /* number of intervals of the upper half */
     double before = NAN, spread = NAN;
     for (;;) {
         double h = M_PI / n;

@@ -2,17 +2,19 @@
  * traced back falls into the hole inside the curve and escapes outside it. The curve is the edge of the shadow. Double
  * precision; pure functions, any thread. Units G = c = M = 1, angles in radians.
  *
- * An orbit of the photon shell with lambda, eta is seen by an observer at inclination i (u = cos i, s = sin i) at
+ * An observer at inclination i (u = cos i, s = sin i) sees an orbit of the photon shell with the constants lambda and
+ * eta at
  *
  *   alpha = -lambda/s        beta = +-sqrt(eta + (a^2 - alpha^2) u^2)
  *
- * where that is real (Bardeen 1973, in Black Holes). In the letters of photon_shell.h, alpha = (w/s)(y + y_P + 2N/(y
- * y_P)), which is also regular on the axis, w = 0 = s. At any distance the curve is the same in (alpha, beta), which
- * label the constants of motion. An observer at a finite radius sees it in the directions
+ * where beta is real (Bardeen 1973, in Black Holes). In the symbols of photon_shell.h, alpha = (w/s)(y + y_P + 2N/(y
+ * y_P)), which is also regular for an observer on the axis, where w = 0 and s = 0. At any distance the curve is the
+ * same in (alpha, beta), which label the constants of motion. An observer at a finite radius sees the curve in the
+ * directions
  *
  *   right, up, inwards = m: the components of the line of sight along e_phi, -e_theta and -e_r,
  *
- * the axes of an unturned pinhole camera (render/view/camera.c). Orbits with r > r_observer are seen looking
+ * which are the axes of an unturned pinhole camera (render/view/camera.c). Orbits with r > r_observer are seen looking
  * outwards.
  *
  * The sky is described in polar coordinates (angle, rho) about a centre, on the line beta = 0 midway between the
@@ -41,16 +43,16 @@
 
 struct kd_critical_observer {
     struct kd_hole hole;
-    /* outside the horizon; for a falling observer, outside the inner horizon; may be INFINITY */
+    /* outside the horizon or, for a falling observer, outside the inner horizon; may be INFINITY */
     double radius;
-    double cos_theta;                 /* [-1, 1], exact 0 and +-1 included                               */
-    double sin_theta;                 /* 0: computed from cos_theta, as in null_geodesic.h */
-    struct kd_observer_motion motion; /* motion at a finite radius; this observer must exist there */
+    double cos_theta;                 /* in [-1, 1]; 0, 1 and -1 may be exact */
+    double sin_theta;                 /* 0 if it is to be computed from cos_theta, as in null_geodesic.h */
+    struct kd_observer_motion motion; /* motion of an observer at a finite radius; it must be possible at the place */
 };
 
 enum kd_critical_status {
     KD_CRITICAL_OK,
-    KD_CRITICAL_BAD_INPUT,   /* NaN, or outside the ranges above                  */
+    KD_CRITICAL_BAD_INPUT,   /* an input is NaN, or outside the ranges above */
     KD_CRITICAL_NO_OBSERVER, /* this kind of observer does not exist at the place */
 };
 
@@ -59,14 +61,15 @@ struct kd_critical {
     enum kd_critical_status status;
     struct kd_critical_observer observer;
     struct kd_shell shell;
-    struct kd_tetrad tetrad; /* at a finite radius: the observer's tetrad or, if the observer moves along theta, that of
-                                zero angular momentum */
-    struct kd_tetrad skew;   /* the observer's own tetrad if it moves along theta; otherwise not set */
+    /* for an observer at a finite radius: its tetrad or, if it moves along theta, the tetrad of zero angular
+     * momentum */
+    struct kd_tetrad tetrad;
+    struct kd_tetrad skew; /* for an observer that moves along theta: its own tetrad; otherwise not set */
     bool is_skew;
-    double sine; /* sine of the inclination                   */
-    /* places of the orbits at the left and right end, divided by `sine`; not divided if `sine` is 0 */
+    double sine; /* sine of the observer's inclination */
+    /* places of the orbits at the left and at the right end, divided by `sine` unless that is 0 */
     double low, high;
-    double left, right; /* positions of the ends: alpha, or the angle to the right of -e_r */
+    double left, right; /* positions of the left and right end: alpha, or the angle to the right of -e_r */
     double centre;
 };
 
@@ -81,32 +84,32 @@ struct kd_critical_point {
     struct kd_shell_orbit orbit;
     double alpha, beta;
     double angle, rho;         /* polar coordinates about the centre                 */
-    double right, up, inwards; /* direction at a finite radius; (0, 0, 1) at infinity */
+    double right, up, inwards; /* direction, if the observer is at a finite radius; (0, 0, 1) at infinity */
 };
 
 /* The point of the curve at `angle`, which may be any real number. Takes some two microseconds. */
 struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double angle);
 
-/* A point of the upper half. The other half is its mirror image; kd_critical_see converts both to what the observer
- * sees. `along` goes from 0 at the left end to 1 at the right one, not uniformly in any angle or length. Needs no root
- * finding, so it is ten times as fast, for drawing the curve. At the ends `up` is accurate to some 1e-8 M. */
+/* A point of the upper half of the curve. kd_critical_see converts this point, or its mirror image on the lower half,
+ * to what the observer sees. `along` goes from 0 at the left end to 1 at the right end, but not evenly in angle or
+ * length. No root is searched, so for drawing the curve this function is ten times as fast as kd_critical_at. At the
+ * ends `up` is accurate to some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* Like kd_critical_upper, but a smooth function of `along`. The curve of kd_critical_upper has a kink as a function of
- * `along`. Here the orbits' radii are a smooth function of it, because they are spaced by ln(r - 1). */
+/* A point of the upper half, as a smooth function of `along`. The results of kd_critical_upper have a kink as functions
+ * of `along`. Here the radii of the orbits are a smooth function of `along`, because they are spaced by ln(r - 1). */
 struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
 
-/* Converts right, up and inwards of a point of kd_critical_upper, or of its mirror image, to those of an observer
- * that moves along theta; no change for other observers. Results of kd_critical_at are converted already. */
+/* Converts right, up and inwards of a point of kd_critical_upper, or of its mirror image, to those of an observer that
+ * moves along theta. For other observers it changes nothing. Results of kd_critical_at need no conversion. */
 void kd_critical_see(const struct kd_critical *curve, struct kd_critical_point *point);
 
-/* Measures by the trapezoidal rule, which converges exponentially. `points`: the number needed for an error of 1e-13,
- * at most 8192. Near a = 1, where the curve bends almost abruptly, an error of some 1e-10 remains. */
+/* Measures of the curve by the trapezoidal rule, which converges exponentially. points: number of points needed for an
+ * error of 1e-13, at most 8192. Near a = 1, where the curve bends almost abruptly, an error of some 1e-10 remains. */
 struct kd_critical_measures {
     double area, mean_radius, displacement, asymmetry;
     double width,
-        /* width: right - left. height: twice the largest rho sin(angle) (at a finite radius: in the plane of
-         * angles). */
+        /* width: right - left. height: twice the largest rho sin(angle); at a finite radius these are angles */
         height;
     int points;
 };

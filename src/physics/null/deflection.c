@@ -11,7 +11,7 @@ double kd_deflection_critical(const struct kd_hole *hole)
     return fabs(hole->a) < 1 ? kd_kerr_critical_impact(hole) : NAN;
 }
 
-/* The orbit in w = 1/r and Mino time, E = 1, L = b (docs/physics/geodesics.md at Q = 0):
+/* The orbit of light in w = 1/r and Mino time, with E = 1, L = b and Q = 0 (docs/physics/geodesics.md):
  *   w'^2 = 1 - (b^2 - a^2) w^2 + 2 (b - a)^2 w^3 - q^2 (b - a)^2 w^4,   phi' = b + chi',
  *   chi' = a (2w - (a b + q^2) w^2)/(1 - 2w + (a^2 + q^2) w^2). */
 struct light {
@@ -35,13 +35,15 @@ static double quartic(const struct light *o) { return kd_hole_quartic(o->hole, 0
 
 struct far {
     struct light light;
-    double w0; /* w at the closest approach */
+    double w0; /* w at the closest approach to the hole */
 };
 
-/* With w = w0 sin(psi) the first root cancels in w'^2 = w0^2 cos^2(psi) D(psi), and
+/* Integrand of the bending at large b. With w = w0 sin(psi), w'^2 is w0^2 cos^2(psi) D(psi), where the root at the
+ * closest approach is divided out. Then
  *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   s = sin(psi),
  *   D = b^2 - a^2 - (b - a)^2 w0 (2 (s + 1/(1 + s)) - q^2 w0 (1 + s^2)).
- * phi'^2 - D, written out, has no b^2. So no term as large as the pi of a straight ray has to cancel. */
+ * When phi'^2 - D is written out, b^2 cancels. So there is no cancellation of terms as large as the pi of a straight
+ * ray. */
 static double far_bending(double x, double y, const void *context)
 {
     const struct far *f = context;
@@ -52,8 +54,8 @@ static double far_bending(double x, double y, const void *context)
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. Between 1/b and the root the polynomial is so
- * nearly convex that the method hardly overshoots. */
+/* w at the closest approach, where w'^2 = 0. Newton's method starts from 1/b, which is below the root. Between 1/b and
+ * the root the polynomial is so nearly convex that the method hardly overshoots. */
 static double nearest_w(const struct light *o)
 {
     const double two = quadratic(o), three = cubic(o), four = quartic(o);
@@ -108,8 +110,8 @@ double kd_deflection_weak(double b) { return 4 / b; }
 
 double kd_deflection_weak_second(const struct kd_hole *hole, double b) { return kd_kerr_weak_bending(hole, b); }
 
-/* On the critical ray w'^2 = (w_c - w)^2 (linear (w - w_1) - quartic w^2), linear = cubic - 2 quartic w_c, w_1 =
- * (quadratic - quartic w_c^2)/linear - 2 w_c < 0. */
+/* Coefficients of the critical ray, for which w'^2 = (w_c - w)^2 (linear (w - w_1) - quartic w^2). linear = cubic - 2
+ * quartic w_c, and w_1 = (quadratic - quartic w_c^2)/linear - 2 w_c is negative. */
 struct critical {
     struct light light;
     double w, w1, linear, quartic, rate;
@@ -118,8 +120,8 @@ struct critical {
 static double rest_of(const struct critical *c, double w) { return c->linear * (w - c->w1) - c->quartic * w * w; }
 
 /* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(rest). The
- * numerator is a sum of two differences, one of chi' and one of the root. In each of them the factor 1 - w/w_c is
- * cancelled algebraically. */
+ * numerator is a sum of two differences, one of chi' and one of the root. In each difference the factor 1 - w/w_c is
+ * divided out algebraically. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;
@@ -132,8 +134,8 @@ static double regular(double x, double y, const void *context)
     return chi / root + c->rate * (c->linear - c->quartic * (w + wc)) * wc / (root * (root + root_c));
 }
 
-/* For b = b_c (1 + delta) the double root separates by +-e, e^2 = delta b_c (d w'^2/db)/rest(w_c), and the
- * pole integrates to rate arcosh(w_c/e). */
+/* Bozza's limit. For b = b_c (1 + delta) the two roots move apart to w_c +- e, with e^2 = delta b_c (d
+ * w'^2/db)/rest(w_c). The integral of the pole is then rate arcosh(w_c/e). */
 struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
 {
     double r = kd_kerr_photon_orbit(hole), b = kd_deflection_critical(hole);

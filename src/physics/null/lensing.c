@@ -7,22 +7,22 @@
 
 #include <math.h>
 
-/* d: relative distance of a ray from the critical curve (lensing.h). For |d| below this, the ray's roots are computed
- * from its displacement from the curve. For larger |d| they are computed from its constants of motion, whose `pair` is
- * then accurate to some 1e-14. */
+/* Limit of |d|, where d is the relative distance of a ray from the critical curve (lensing.h). Below it, the ray's
+ * roots are computed from its displacement from the curve. Above it they are computed from the ray's constants of
+ * motion, whose `pair` is then accurate to some 1e-14. */
 #define NEAR 0.03
 
-/* At this distance the crossings of a ray differ from those of the critical ray by less than rounding. */
+/* Distance d at which the crossings of a ray differ from those of the critical ray by less than rounding. */
 #define ON_CURVE 1e-40
 
-/* The largest |d| inside the curve, almost at its centre. Exactly at the centre beta is 0, and a start in the plane
- * could be counted as the first crossing. */
+/* The largest |d| inside the curve, almost at the curve's centre. At the centre itself beta is 0, and a start in the
+ * plane could be counted as the first crossing. */
 #define CENTRE (1 - 1e-6)
 
-/* One ray's motion up to the crossing. */
+/* One ray's motion up to its n-th crossing. */
 struct ray {
     struct kd_null_radial radial;
-    double crossing; /* Mino time; NaN: the ray does not cross */
+    double crossing; /* Mino time of the crossing; NaN if the ray does not cross */
 };
 
 static struct ray ray_at(const struct kd_critical *c, const struct kd_critical_point *p, int n, double d)
@@ -57,14 +57,14 @@ static double time_to(const struct ray *ray, double source)
     return kd_null_radial_integrals(&ray->radial, &at).tau;
 }
 
-/* The function whose root is sought, in s = ln|d|. */
+/* Parameters of the function whose root is sought in the variable s = ln|d|. */
 struct search {
     const struct kd_critical *curve;
     const struct kd_critical_point *point;
     int n;
     double source;
-    double side; /* +1 outside, -1 inside     */
-    bool out;    /* crossed on the way out    */
+    double side; /* +1 outside the critical curve, -1 inside */
+    bool out;    /* true if the ray crosses on its way out */
 };
 
 static struct ray ray_of(const struct search *q, double s)
@@ -72,8 +72,8 @@ static struct ray ray_of(const struct search *q, double s)
     return ray_at(q->curve, q->point, q->n, q->side * exp(s));
 }
 
-/* Mino time of the crossing minus that of the arrival at the source's radius. For an arrival on the way in to a turning
- * point the sign is reversed. The function rises from negative values at the curve to positive ones. */
+/* Mino time of the crossing minus that of the ray's arrival at the source's radius. The sign is reversed for an arrival
+ * on the way in to a turning point. The function rises from negative values at the critical curve to positive ones. */
 static double late(const void *user, double s)
 {
     const struct search *q = user;
@@ -84,8 +84,8 @@ static double late(const void *user, double s)
     return ray.crossing - (q->out ? 2 * ray.radial.turn.tau - there : there);
 }
 
-/* A function whose zero is the d at which the ray turns at the source's radius. The turning point moves outwards as d
- * grows. */
+/* A function whose root is the d at which the ray turns at the source's radius. With growing d the turning point moves
+ * outwards. */
 static double beyond(const void *user, double s)
 {
     const struct search *q = user;
@@ -93,13 +93,13 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Finds a root of f. It steps in ln|d|, from the expected position of an edge of this order, to a sign change of f, and
- * at most up to `end`. */
+/* Finds a root of f. It steps in ln|d| from the expected position, which is that of an edge of this order, until f
+ * changes its sign, and at most up to `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
     for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
-        if (i > 150) /* gives up, because e^-600 is reached without a sign change */
+        if (i > 150) /* gives up at e^-600, as f has not changed its sign */
             return NAN;
     while (high < end && !(f(q, high) > 0))
         high = fmin(high + 2, end);
@@ -120,8 +120,8 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Up to this distance a ray meets the source twice: on its way in and on its way out. The farther out the ray
-         * is, the earlier it meets the source on its way in. */
+        /* Limit of d up to which a ray meets the source twice, on its way in and on its way out. The farther out the
+         * ray is, the earlier it meets the source on its way in. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

@@ -12,11 +12,11 @@
 struct swing {
     double z, n, s, kappa;
     double full; /* L */
-    double at;   /* x of the observer, -pi ... pi */
+    double at;   /* x of the observer, from -pi to pi */
 };
 
-/* Half of the nodes of Gauss-Legendre quadrature on [0, 1], and their weights: A. N. Lowan et al. 1942, Bull. AMS
- * 48, 739; ten points. */
+/* Positive nodes, and their weights, of Gauss-Legendre quadrature with ten points on [-1/2, 1/2] (A. N. Lowan et al.
+ * 1942, Bull. AMS 48, 739). */
 static const double roots[] = { 0.07443716949081560544, 0.21669769706462038234, 0.33970478414951225622,
                                 0.43253168334449225535, 0.48695326425858586444 };
 static const double weights[] = { 0.14776211235737643509, 0.13463335965499817754, 0.10954318125799102200,
@@ -42,14 +42,14 @@ static bool swing_of(const struct kd_null_motion *m, struct swing *o, struct kd_
     return true;
 }
 
-/* Mino time from x = 0. */
+/* Mino time from 0 to x. */
 static double time_to(const struct swing *w, double x)
 {
     const double s = sin(x), c = cos(x);
     return s * kd_carlson_rf(c * c, (w->n + w->kappa * w->s * c * c) / w->s, 1) / sqrt(w->s);
 }
 
-/* Position x of the ray after Mino time tau, not reduced. */
+/* Position x of the ray at Mino time tau, not reduced to a period. */
 static double swung(const struct swing *w, double tau)
 {
     const double half = 2 * time_to(w, 0.5 * M_PI), away = fabs(w->at) > 0.5 * M_PI ? copysign(M_PI, w->at) : 0;
@@ -65,8 +65,8 @@ static double drag_rate(const struct swing *w, double s2)
     return 1 / (speed * (w->full + speed));
 }
 
-/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: nodes of the midpoint rule, which converges over a whole period as fast as
- * Gauss's. kappa^8 is below 1e-8 outside the shadow. */
+/* Values of sin^2 at pi/16, 3 pi/16, 5 pi/16 and 7 pi/16, the nodes of the midpoint rule. Over a whole period this rule
+ * converges as fast as Gauss's. kappa^8 is below 1e-8 outside the shadow. */
 static const double squares[] = { 0.03806023374435662, 0.30865828381745514, 0.69134171618254486, 0.96193976625564338 };
 
 static double dragged(const struct swing *w, double from, double to)

@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-#define ANGLE 0.03 /* maximum angle between neighbouring places, */
-#define SLOPE 0.02 /* and maximum change of w, whose rate is 1 on a straight ray */
-#define SUBSTEPS 8 /* fourth-order steps between two places: an error of some 1e-12 of a turn */
-#define POLE 0.02  /* maximum step over the distance to the horizon, where chi and t have a pole */
+#define ANGLE 0.03 /* largest angle between neighbouring places */
+#define SLOPE 0.02 /* largest change of w between neighbouring places; the rate of w is 1 on a straight ray */
+#define SUBSTEPS 8 /* number of fourth-order steps between two places; the error is some 1e-12 of a turn */
+#define POLE 0.02  /* largest step, relative to the distance to the horizon, where chi and t have a pole */
 
 enum { W, DW, NX, NY, NZ, VX, VY, VZ, CHI, T, STATE };
 struct state { double y[STATE]; };
@@ -17,13 +17,13 @@ struct state { double y[STATE]; };
 struct course {
     struct kd_null_motion m;
     double horizon;        /* 1/r+ */
-    double sense;          /* sign of lambda, for lambda = 0 */
+    double sense;          /* sign of lambda, also defined if lambda is 0 */
     double psi;            /* azimuth so far, without frame dragging, not reduced to a turn */
-    double last_x, last_y; /* n in the plane at the last update */
-    double way;            /* 1: time by the formula for the way in, -1: for the way out */
-    double ingoing;        /* sign of the energy in ingoing coordinates; 0: Boyer-Lindquist coordinates */
-    double edge;           /* the part of the time that is not integrated, at the start */
-    double first;          /* 1/r from which places are recorded */
+    double last_x, last_y; /* components x and y of n at the last update */
+    double way;            /* 1 if the time follows the formula for the way in, -1 for the way out */
+    double ingoing;        /* in ingoing coordinates: sign of the energy; 0 in Boyer-Lindquist coordinates */
+    double edge;           /* value, at the start, of the part of the time that is not integrated */
+    double first;          /* places are recorded where 1/r is at least this */
     struct state now;
     double mino;
     int order;
@@ -32,7 +32,7 @@ struct course {
     struct kd_null_course *to;
 };
 
-/* G of the header, in the form that does not cancel. */
+/* G of the header comment, in the form that does not cancel. */
 static double gone(const struct course *c, double w, double dw, double d)
 {
     const struct kd_null_motion *m = &c->m;
@@ -84,7 +84,7 @@ static struct state step(const struct course *c, const struct state *s, double h
     return o;
 }
 
-/* The part of the time that is not integrated. It is 0 at infinity, where r_o + 2 ln r_o is not counted. */
+/* The part of the time that is not integrated, at a state. It is 0 at infinity, because r_o + 2 ln r_o is left out. */
 static double edge(const struct course *c, const struct state *s)
 {
     const double w = s->y[W], dw = s->y[DW];
@@ -95,7 +95,7 @@ static double edge(const struct course *c, const struct state *s)
     return -dw / w - 2 * c->way * log(0.5 * (1 + c->way * dw) / w);
 }
 
-/* Errors of the first integrals, relative to their terms. */
+/* Largest error of the first integrals, relative to their terms. */
 static double drift(const struct course *c, const struct state *s)
 {
     const struct kd_null_motion *m = &c->m;
@@ -114,8 +114,9 @@ static double drift(const struct course *c, const struct state *s)
     return worst;
 }
 
-/* Advances the azimuth to a state. A ray through the axis turns by pi there, towards -phi if alpha = 0. A ray from an
- * observer on the axis turns like its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
+/* Advances the azimuth to a state. A ray that passes through the axis turns by pi there, towards -phi if alpha = 0. A
+ * ray from an observer on the axis turns as neighbouring rays do, whose lambda has the sign of -alpha (null_polar.h).
+ */
 static void turn(struct course *c, const struct state *s)
 {
     const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
@@ -127,7 +128,7 @@ static void turn(struct course *c, const struct state *s)
     c->last_y = y;
 }
 
-/* After a turning point the time is computed by the formula for the other direction. */
+/* Changes the formula of the time to that of the other direction, if the ray has passed a turning point. */
 static void take_way(struct course *c, struct state *s)
 {
     const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
@@ -155,7 +156,7 @@ static bool put(struct course *c, const struct state *s, int crossing)
     return true;
 }
 
-/* The fraction of a step from `from` at which y[which] passes `value`: by bisection and the secant method. */
+/* Finds the fraction of a step from `from` at which y[which] passes `value`, by bisection and the secant method. */
 static double part_of(const struct course *c, const struct state *from, double h, int which, double value)
 {
     double low = 0, high = h;
@@ -180,7 +181,8 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
                  w = isinf(ray->radius) ? 0 : 1 / ray->radius;
     const struct kd_null_motion *m = &c->m;
     const double all = 1 + w * w * (m->quadratic + w * (2 * m->k + m->constant * w));
-    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta)) /* also rejects NaN */
+    /* this form of the condition also rejects NaN */
+    if (!(all >= -1e-12) || !isfinite(m->lambda) || !isfinite(m->eta))
         return false;
     c->now = (struct state) { {
         [W] = w,
@@ -200,7 +202,7 @@ static bool set_out(struct course *c, const struct kd_null_ray *ray)
     return true;
 }
 
-/* Maximum length of the next step. Deep in the hole w changes at the rate sqrt(6 k w) by itself. */
+/* Largest length of the next step. Deep in the hole w changes at the rate sqrt(6 k w), whatever its present slope. */
 static double length_of(const struct course *c)
 {
     const struct kd_null_motion *m = &c->m;
@@ -209,20 +211,21 @@ static double length_of(const struct course *c)
     return fmin(ANGLE / turning, SLOPE) / SUBSTEPS;
 }
 
-/* True if a ray in ingoing coordinates does not come from outside the hole: traced back, it reaches the past horizon
- * from within. */
+/* True if the light of a ray in ingoing coordinates does not come from outside the hole. Traced back, such a ray
+ * reaches the past horizon from within. */
 static bool is_dark(const struct course *c)
 {
     return c->ingoing * (1 + c->m.hole.a * (c->m.hole.a - c->m.lambda) * c->horizon * c->horizon) <= 0;
 }
 
-/* True if chi and t have a pole at the horizon that the ray would reach next. */
+/* True if chi and t have a pole at the next horizon on the ray. */
 static bool has_pole(const struct course *c)
 {
     return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
 }
 
-/* Takes a step of at most h, or up to a crossing, which becomes a place. Returns false if no room is left. */
+/* Takes a step of at most h. If the ray crosses the plane within the step, the step ends at the crossing, which becomes
+ * a place. Returns false if no room is left. */
 static bool go(struct course *c, double h)
 {
     const double *y = c->now.y, left = fabs(c->horizon - y[W]), speed = fabs(y[DW]);
@@ -240,7 +243,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* from here on the ray counts as on this side of the plane, regardless of rounding of u */
+    /* side of the plane on which the ray counts from here on, regardless of rounding of u */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);
@@ -248,7 +251,7 @@ static bool go(struct course *c, double h)
     return room;
 }
 
-/* True next to the horizon, if the ray is about to enter it, or about to reach the past horizon from within. */
+/* True if the ray is next to the horizon and about to enter it, or about to reach the past horizon from within. */
 static bool is_captured(const struct course *c, double near)
 {
     const double w = c->now.y[W], dw = c->now.y[DW];
@@ -268,7 +271,7 @@ static void run(struct course *c, double near)
         room = go(c, h);
         to->steps = i;
         const double w = c->now.y[W], dw = c->now.y[DW];
-        if (!isfinite(w)) { /* w has diverged, and the loop would not end */
+        if (!isfinite(w)) { /* stops, because w has diverged and the loop would not end */
             to->end = KD_COURSE_NONE;
             return;
         }

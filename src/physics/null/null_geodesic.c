@@ -7,13 +7,14 @@
 #include <float.h>
 #include <math.h>
 
-/* One ray's motion, and its start within the radial motion. */
+/* One ray's motion, and the position of its start within the radial motion. */
 struct motion {
     struct kd_null_polar polar;
     struct kd_null_radial radial;
-    struct kd_null_radial_sum start; /* sum from the observer to the radial reference */
-    double begin, forward;           /* Mino time from the reference is begin + forward tau                */
-    double end;                      /* Mino time at which the ray is captured or has escaped              */
+    struct kd_null_radial_sum start; /* radial integrals from the observer to the radial reference */
+    /* at Mino time tau from the observer, the Mino time from the reference is begin + forward tau */
+    double begin, forward;
+    double end; /* Mino time at which the ray is captured, or has escaped */
 };
 
 static bool valid(const struct kd_null_ray *ray)
@@ -36,12 +37,12 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
     return (struct kd_null_radial_sum) { x.tau + y.tau, x.phi + y.phi, x.t + y.t };
 }
 
-/* The radial integrals from the observer to Mino time `tau`. from: the integrals from the place at `tau` to the
+/* The radial integrals from the observer to the place at Mino time `tau`. from: the integrals from that place to the
  * reference. */
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
-    if (m->radial.inner) /* INNER: time is counted from r3, which the ray passes at 0 */
+    if (m->radial.inner) /* for INNER motion, time counts from r3, which the ray passes at time 0 */
         return at < 0         ? sub((struct kd_null_radial_sum) { -m->begin, m->start.phi, m->start.t }, from)
                : m->begin < 0 ? add(m->start, from)
                               : sub(from, m->start);
@@ -83,9 +84,9 @@ static void disturb(const struct motion *m, double tau, struct kd_null_crossing 
 }
 
 /* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. This
- * rounding affects phi and t if dr/dtau is small, near the photon sphere, or if phi' and t' are large, at the horizon.
- * The integrals of phi and t belong to the Mino time of the rounded r. This time is known, so the integrals are
- * corrected by the difference. */
+ * rounding affects phi and t if dr/dtau is small, as near the photon sphere, or if phi' and t' are large, as at the
+ * horizon. The integrals of phi and t belong to the Mino time of the rounded r. This time is known, so the integrals
+ * are corrected by the difference. */
 static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     const struct kd_null_radial *q = &m->radial;
@@ -131,7 +132,7 @@ static void escape(const struct motion *m, const struct kd_null_motion *k, struc
     path->sky_error = DBL_EPSILON * m->end * (sqrt(fmax(k->eta, 0)) + fabs(k->lambda / sine2));
 }
 
-/* Vortical rays without real roots: they neither turn nor cross the plane. */
+/* Computes the path of a vortical ray without real roots, which neither turns nor crosses the plane. */
 static void without_roots(const struct kd_null_ray *ray, const struct kd_null_motion *k,
                           const struct kd_null_roots *roots, struct kd_null_path *path)
 {
@@ -145,7 +146,8 @@ static void without_roots(const struct kd_null_ray *ray, const struct kd_null_mo
     path->sky_phi = -(sum.phi + sky.phi);
 }
 
-/* R = r^4: a radial ray of Schwarzschild, or the principal ray in the equatorial plane, lambda = a. */
+/* Computes the path of a ray with R = r^4: a radial ray of Schwarzschild, or the principal ray in the equatorial plane,
+ * lambda = a. */
 static void principal(const struct kd_null_ray *ray, const struct kd_null_motion *k, struct kd_null_path *path)
 {
     if (!ray->outward)
@@ -153,7 +155,7 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
     double plus = k->hole.outer, gap = plus - k->hole.inner;
     path->fate = KD_NULL_ESCAPED;
     path->sky_u = k->c;
-    /* here lambda dtau and frame dragging add up to a dr/Delta */
+    /* lambda dtau and frame dragging together are a dr/Delta here */
     path->sky_phi = -k->hole.a / gap * log1p(gap / (ray->radius - plus));
 }
 
@@ -212,7 +214,7 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 struct slope { double r, phi, delay; };
 
 /* Computes the changes of the results when alpha and beta change by the fractions `step` and `other`, in units of
- * `step`. The change is INFINITY for a crossing that disappears. */
+ * `step`. For a crossing that disappears the change is INFINITY. */
 static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
                        struct slope *slopes, double *sky)
 {
@@ -236,11 +238,11 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
 /* Weight of rounding errors of a chain of operations, in units of the machine epsilon. It was calibrated with some 1e5
  * rays that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
  * exceeded it. Near maximal spin three roots lie close together at the horizon, which amplifies rounding by 1/(r+ -
- * r-). The slopes in alpha and beta do not show this, so it is added here. */
+ * r-). The slopes in alpha and beta do not contain this amplification, so it is added here. */
 static double weight_of(const struct kd_null_ray *ray) { return 8 + 2 / (ray->hole.outer - ray->hole.inner); }
 
-/* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r - r+). The
- * difference of the two poles at the horizons loses 1/(r+ - r-). */
+/* Estimates errors. Rounding is taken to disturb the labels, the answer itself, and r where phi and t diverge as ln(r -
+ * r+). The difference of the two poles at the horizons loses precision by the factor 1/(r+ - r-). */
 static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, const struct slope *d)
 {
     double plus = ray->hole.outer, gap = plus - ray->hole.inner, eps = DBL_EPSILON;

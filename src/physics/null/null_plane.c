@@ -11,9 +11,9 @@ enum { ORDER = 19, STEPS = 2000 };
 struct series { double w[ORDER + 1], u[ORDER + 1]; };
 
 struct ray {
-    double a2, k3, c2, e2; /* A, 3K, -2D, 2 a^2 E^2 */
+    double a2, k3, c2, e2; /* A, 3K, -2D and 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
-    bool ours;             /* true: the ray does not come from another exterior region through the horizon */
+    bool ours;             /* true if the ray does not come from another exterior region through the horizon */
     double w, dw, u, du;
 };
 
@@ -60,7 +60,7 @@ static struct series series_of(const struct ray *o)
     return s;
 }
 
-/* The step within which a series is accurate to a rounding error of `size`. */
+/* The largest step at which the error of a series is at most a rounding of `size`. */
 static double reach(const double *c, double size)
 {
     const double last = pow(size / fabs(c[ORDER]), 1.0 / ORDER),
@@ -84,7 +84,7 @@ static double slope(const double *c, double h)
     return sum;
 }
 
-/* The root of u in (0, h], an interval at whose ends u has different signs: Newton's method within the bracket. */
+/* The root of u in (0, h], by Newton's method within this bracket. u must have different signs at both ends. */
 static double crossing(const double *c, double h)
 {
     double low = 0, high = h, at = h * c[0] / (c[0] - value(c, h));
@@ -100,7 +100,7 @@ static double crossing(const double *c, double h)
     return at;
 }
 
-/* True if the ray has reached the past horizon, or one of another exterior region. */
+/* True if the ray has reached the past horizon, or the past horizon of another exterior region. */
 static bool is_dark(const struct ray *o, double w, double dw) { return w >= o->horizon ? dw >= 0 : !o->ours; }
 
 double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n)

@@ -8,7 +8,8 @@
 /* A point of the motion: sin^2 x, cos^2 x and 1 - kappa sin^2 x, each without cancellation. */
 struct phase { double s2, c2, d2; };
 
-/* Integrals from the turning point at z to `at`. Of phi only the regular part is included. */
+/* Integrals from the turning point, where u^2 = z, to the point `at`. Of the azimuth they contain only the regular
+ * part. */
 static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct phase at)
 {
     struct kd_null_polar_sum sum = { 0 };
@@ -20,7 +21,7 @@ static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct 
     if (p->parts == KD_NULL_TAU)
         return sum;
     sum.u2 = p->z * sine * (f - at.s2 * kd_carlson_rd(at.c2, at.d2, 1) / 3) / root;
-    if (p->nu > 0) { /* Int sin^2 x / (1 - nu cos^2 x) */
+    if (p->nu > 0) { /* integral of sin^2 x / (1 - nu cos^2 x) */
         double rest = 1 - p->nu;
         double j = kd_carlson_rj(at.c2, at.d2, 1, 1 + p->nu / rest * at.s2);
         sum.phi = p->a * p->a * p->cc * sine * at.s2 * j / (3 * rest * root);
@@ -34,11 +35,11 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* Computes gap and weight from two known quantities: their product, which is (s beta)^2, and their difference. */
+/* Computes gap and weight from their product, which is (s beta)^2, and their difference, both of which are known. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->hole.a * m->hole.a, s2 = m->s * m->s;
-    double d = a2 * s2 - m->alpha * m->alpha - m->beta * m->beta; /* a^2 gap - weight */
+    double d = a2 * s2 - m->alpha * m->alpha - m->beta * m->beta; /* the difference a^2 gap - weight */
     double speed2 = s2 * m->beta * m->beta;
     *disc = hypot(d, 2 * m->hole.a * m->s * m->beta);
     *weight = d > 0 ? 2 * a2 * speed2 / (*disc + d) : 0.5 * (*disc - d);
@@ -49,13 +50,14 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
 {
     struct phase at = { gap / p->z, p->u * p->u / p->z, weight / p->s };
     p->start = from_turn(p, at);
-    /* atan2(sqrt(gap), cc u sqrt(weight)) with sqrt(gap weight) = s |beta|, and s, which may vanish, divided
-     * out. */
+    /* The angle atan2(sqrt(gap), cc u sqrt(weight)). sqrt(gap weight) = s |beta| is used, and s, which may vanish, is
+     * divided out. */
     double down = fabs(m->alpha) * p->u * weight, flat = fabs(m->beta) * (p->n + p->a * p->a);
     double angle = weight > 0 ? atan2(flat, down) : 0.5 * M_PI;
     p->start.phi += angle;
-    bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0); /* du/dtau = s beta */
-    if (p->u == 0) /* a start in the plane counts as the previous crossing of the ray */
+    /* true if the ray moves towards the plane, by du/dtau = s beta */
+    bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0);
+    if (p->u == 0) /* a start in the plane counts as the crossing before crossing 0 */
         toward = false;
     if (!toward) {
         p->start.tau = -p->start.tau, p->start.phi = -p->start.phi, p->start.u2 = -p->start.u2;
@@ -77,14 +79,14 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_nu
     p.s = disc;
     p.z = p.u * p.u + gap;
     p.vortical = m->eta < 0;
-    /* Principal null rays have s = 0; a ray in the plane has eta = u = 0, where N decides nothing. */
+    /* Principal null rays have s = 0. A ray in the plane has eta = 0 and u = 0, and N does not matter. */
     p.fixed = !(p.s > 0) || !(p.z > 0) || (m->eta == 0 && p.u == 0);
     if (p.fixed)
         return p;
     p.n = m->eta / p.z;
     p.kappa = a2 * p.z / p.s;
     p.crosses = m->eta > 0;
-    p.cc = fabs(m->lambda) / (weight + a2 * m->s * m->s); /* N + a^2 without cancellation */
+    p.cc = fabs(m->lambda) / (weight + a2 * m->s * m->s); /* cc, from N + a^2 without cancellation */
     if (m->s == 0)
         p.cc = 0;
     p.nu = a2 * p.cc * p.cc;
@@ -94,17 +96,20 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_nu
     if (m->eta != 0)
         p.quarter = from_turn(&p, quarter);
     else
-        p.quarter = (struct kd_null_polar_sum) { INFINITY, 0, 0 }; /* the plane is reached in infinite time */
+        /* the ray takes infinite time to reach the plane */
+        p.quarter = (struct kd_null_polar_sum) { INFINITY, 0, 0 };
     p.quarter.phi += 0.5 * M_PI;
     set_start(&p, m, gap, weight);
     return p;
 }
 
-/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which needs a third of the square roots. */
+/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which needs a third of the square roots that
+ * duplication needs. */
 static double quarter_of(double y)
 {
     double a = 1, b = sqrt(y);
-    for (int i = 0; i < 64 && fabs(a - b) > 1e-8 * a; i++) { /* the next mean is accurate to 1e-17 */
+    /* at this difference, the next mean is accurate to 1e-17 */
+    for (int i = 0; i < 64 && fabs(a - b) > 1e-8 * a; i++) {
         double mean = 0.5 * (a + b);
         b = sqrt(a * b), a = mean;
     }
@@ -118,7 +123,8 @@ double kd_null_polar_first(const struct kd_null_motion *m)
         return INFINITY;
     kd_null_polar_gap(m, &disc, &gap, &weight);
     double z = u * u + gap, n = m->eta / z;
-    bool toward = u > 0 && (m->beta * side < 0 || (m->beta == 0 && weight > 0)); /* as in set_start */
+    /* true if the ray moves towards the plane, as in set_start */
+    bool toward = u > 0 && (m->beta * side < 0 || (m->beta == 0 && weight > 0));
     if (toward)
         return u * kd_carlson_rf(z * weight, n * gap, m->eta);
     double start = gap > 0 ? sqrt(gap / z) * kd_carlson_rf(u * u / z, weight / disc, 1) : 0;
@@ -149,7 +155,7 @@ struct kd_null_polar_place kd_null_polar_at(const struct kd_null_polar *p, const
     double rest = swings == 0 ? total : total - 2 * swings * p->quarter.tau;
     struct phase at;
     double cosine, weight;
-    if (p->vortical) { /* u = sqrt(z) dn; the ray stays on one side of the plane */
+    if (p->vortical) { /* for a vortical ray u = sqrt(z) dn, because the ray stays on one side of the plane */
         double least = -p->n / a2, range = p->s / (a2 * p->z);
         struct kd_jacobi j = kd_jacobi(sqrt(a2 * p->z) * rest, range, least / p->z);
         at = (struct phase) { range * j.sn * j.sn, j.dn * j.dn, j.cn * j.cn };

@@ -24,9 +24,9 @@ double kd_null_radial_potential(const struct kd_null_motion *m, double r)
     return r * (r * (r * r + m->quadratic) + 2 * m->k) + m->constant;
 }
 
-/* Newton's method for x^3 + b x^2 + c x + d or, with a leading 1, for the quartic with b = 0. It starts from `x` and
- * stops when x no longer moves. From a suitable start it is monotone in exact arithmetic, so that a reversal means that
- * x is within rounding of the root. */
+/* A root by Newton's method, of x^3 + b x^2 + c x + d or of the quartic x^4 + c x^2 + d x + e. It starts from `x`, and
+ * stops when x no longer moves. From a suitable start it is monotone in exact arithmetic; a reversal therefore means
+ * that x is within rounding of the root. */
 static double newton(const double *k, int degree, double x)
 {
     double direction = 0;
@@ -51,20 +51,22 @@ static double newton(const double *k, int degree, double x)
 static double least_root(const double *k)
 {
     double inflection = -k[0] / 3, bend = inflection * inflection - k[1] / 3;
-    double top = bend > 0 ? inflection - sqrt(bend) : inflection; /* the local maximum, if there is one */
+    /* top: place of the local maximum, if there is one */
+    double top = bend > 0 ? inflection - sqrt(bend) : inflection;
     double f = ((top + k[0]) * top + k[1]) * top + k[2];
     if (f >= 0)
         return newton(k, 3, 0);
-    return newton(k, 3, inflection - k[0] + cbrt(-k[2])); /* beyond every root */
+    return newton(k, 3, inflection - k[0] + cbrt(-k[2])); /* starts beyond every root */
 }
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    /* a ray with pair 0 would wind for ever; it is replaced by a ray that winds for some 25 radians */
+    /* a ray with pair = 0 would wind for ever; this value makes it wind for some 25 radians */
     if (r->pair == 0)
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
-    if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */
+    /* mean >= 0 because K >= 0. So r4 has no cancellation, and r3 follows from the product of both */
+    if (r->pair >= 0) {
         r->r4 = r->mean + sqrt(r->pair);
         r->r3 = r->r4 > 0 ? product / r->r4 : 0;
     }
@@ -74,7 +76,7 @@ static void finish(struct kd_null_roots *r, double product)
     r->margin = r->mean > 0 ? fabs(r->pair) / (r->mean * r->mean) : 1;
 }
 
-/* Computes the other two roots from r1 and r2: by the sum of all roots, which is 0, and by division. */
+/* Computes the roots r3 and r4 from r1 and r2, by the sum of all roots, which is 0, and by division of the quartic. */
 static void divide(struct kd_null_roots *r, double k)
 {
     double sum = r->r1 + r->r2, product = r->r1 * r->r2 - 2 * k / sum;
@@ -83,7 +85,8 @@ static void divide(struct kd_null_roots *r, double k)
     finish(r, product);
 }
 
-/* Two conjugate pairs (r^2 - p r + m)(r^2 + p r + g), p = -2 mean: p^2 is the positive root of the resolvent cubic. */
+/* Finds two conjugate pairs, the roots of (r^2 - p r + m)(r^2 + p r + g) with p = -2 mean. p^2 is the positive root of
+ * the resolvent cubic. */
 static void two_pairs(struct kd_null_roots *r, const struct kd_null_motion *m)
 {
     double b = 2 * m->k, q = m->quadratic, c = m->constant;
@@ -92,7 +95,7 @@ static void two_pairs(struct kd_null_roots *r, const struct kd_null_motion *m)
     double skew = p > 0 ? b / p : sqrt(fmax(q * q - 4 * c, 0)), g = 0.5 * (q + p2 + skew);
     r->kind = KD_NULL_NO_REAL;
     r->mean = 0.5 * p;
-    r->pair = r->mean * r->mean - g; /* right pair: r^2 - p r + g with p > 0 */
+    r->pair = r->mean * r->mean - g; /* the right pair, r^2 - p r + g with p > 0 */
     r->pair_left = r->mean * r->mean - c / g;
     r->margin = 1;
 }
@@ -105,8 +108,8 @@ struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m)
         r.kind = KD_NULL_TWO_REAL;
         return r;
     }
-    /* The most negative root by x = -r: x^4 + q x^2 - b x + c is convex beyond its largest root, which is
-     * below `bound`. */
+    /* The most negative root r1 is -x, where x is the largest root of x^4 + q x^2 - b x + c. This polynomial is convex
+     * beyond its largest root, which is below `bound`. */
     double k[4] = { 0, q, -b, c }, bound = sqrt(fmax(-q, 0)) + cbrt(b) + sqrt(sqrt(fmax(-c, 0)));
     if (c > 0) { /* if eta < 0 and q > 0, the quartic is convex everywhere, and R has two negative roots or none */
         double x = newton(k, 4, bound), y = newton(k, 4, 0);
@@ -130,7 +133,8 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
                                                     double dalpha, double dbeta)
 {
     const struct kd_hole *hole = &m->hole;
-    double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta); /* changes of alpha^2, beta^2 */
+    /* p, q: changes of alpha^2 and of beta^2 */
+    double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta);
     double k = p + q + 2 * hole->a * m->s * dalpha;
     return (struct kd_null_displacement) {
         .r = r, .bend = bend, .quadratic = -(p + q), .k = k, .constant = -kd_hole_quartic(hole, m->c * m->c * p + q, k)
@@ -155,7 +159,7 @@ struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const 
             return kd_null_roots_of(m);
     }
     struct kd_null_roots o = { .mean = r + 0.5 * sum, .pair = 0.25 * sum * sum - product };
-    double both = o.mean * o.mean - o.pair; /* r3 r4; r1 r2 both = C <= 0, r1 + r2 = -2 mean */
+    double both = o.mean * o.mean - o.pair; /* r1 and r2: r3 r4 and r1 r2 both = C; r1 + r2 = -2 mean */
     o.r1 = -o.mean - sqrt(o.mean * o.mean - m->constant / both);
     o.r2 = m->constant == 0 ? 0 : m->constant / both / o.r1;
     finish(&o, both);

@@ -14,48 +14,50 @@
 
 #include "physics/spacetime/hole.h"
 
-/* The constants of motion of one ray, in the image-plane labels: with i the inclination, c = cos i, s = sin i,
+/* The constants of motion of one ray, computed from its labels alpha and beta. With the inclination i, c = cos i and s
+ * = sin i,
  *
  *   lambda = -alpha s         eta = (alpha^2 - a^2) c^2 + beta^2
  *   K = eta + (lambda - a)^2 = (alpha + a s)^2 + beta^2
  *   A = a^2 - eta - lambda^2 = a^2 (1 + c^2) - alpha^2 - beta^2            C = -a^2 eta - q^2 K
  *
- * in the forms on the right, which cancel least. */
+ * The forms on the right cancel least, and are used. */
 struct kd_null_motion {
     struct kd_hole hole;
     double c, s, alpha, beta;
-    double lambda, eta, quadratic, k, constant; /* A is `quadratic`, C is `constant` */
+    double lambda, eta, quadratic, k, constant; /* quadratic: A. k: K. constant: C */
 };
 
-/* cos_theta in [-1, 1]; sin_theta, or 0 if only cos_theta is known. */
+/* Constants of a ray. cos_theta: in [-1, 1]. sin_theta: 0 if only cos_theta is known. */
 struct kd_null_motion kd_null_motion_of(const struct kd_hole *hole, double cos_theta, double sin_theta, double alpha,
                                         double beta);
 
 double kd_null_radial_potential(const struct kd_null_motion *m, double r);
 
 enum kd_null_case {
-    KD_NULL_FOUR_REAL, /* r1 < r2 <= r3 < r4: cases 1 and 2 of Gralla & Lupsasca */
-    KD_NULL_TWO_REAL,  /* r1 < r2 real, r3 and r4 conjugate: case 3              */
-    KD_NULL_NO_REAL,   /* two conjugate pairs, eta < 0 only: case 4              */
+    KD_NULL_FOUR_REAL, /* r1 < r2 <= r3 < r4, which are cases 1 and 2 of Gralla & Lupsasca */
+    KD_NULL_TWO_REAL,  /* r1 < r2 real, r3 and r4 conjugate, which is case 3 */
+    KD_NULL_NO_REAL,   /* two conjugate pairs, only for eta < 0, which is case 4 */
 };
 
-/* r1, r2 = r1 itself; r3, r4 = mean -+ sqrt(pair). In case 4 r1, r2 = -mean -+ sqrt(pair_left). */
+/* The roots. r1 and r2 themselves; r3 and r4 as mean -+ sqrt(pair). In case 4, r1 and r2 are -mean -+ sqrt(pair_left).
+ */
 struct kd_null_roots {
     enum kd_null_case kind;
     double r1, r2, mean, pair, pair_left;
-    double r3, r4;      /* for four real roots only */
-    double r21, p1, p2; /* r2 - r1, (r3 - r1)(r4 - r1), (r3 - r2)(r4 - r2): not in case 4            */
-    double margin;      /* |pair| / mean^2: roughly the relative distance from the critical curve */
+    double r3, r4;      /* set only for four real roots */
+    double r21, p1, p2; /* r2 - r1, (r3 - r1)(r4 - r1) and (r3 - r2)(r4 - r2); not set in case 4 */
+    double margin;      /* |pair| / mean^2, which is roughly the relative distance from the critical curve */
 };
 
-/* The parts of the integrals along a ray. Each value includes those before it: Mino time, azimuth, coordinate time. */
+/* The integrals along a ray that are computed: Mino time; also azimuth; also coordinate time. */
 enum kd_null_parts { KD_NULL_TAU, KD_NULL_TAU_PHI, KD_NULL_TAU_PHI_T };
 
-/* The error is as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
- * into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
+/* Finds the roots. Their error is as if the coefficients had been changed by a few 1e-16. An exactly double root r3 =
+ * r4 is split by 1e-11 into a conjugate pair. All roots are 0 for a = alpha = beta = 0. */
 struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m);
 
-/* A ray displaced by (dalpha, dbeta) from one for which R has the double root r: the changes of A, K and C, and bend
+/* A ray displaced by (dalpha, dbeta) from a ray for which R has the double root r: the changes of A, K and C, and bend
  * = R''(r)/2 at r. */
 struct kd_null_displacement {
     double r, bend;
@@ -65,10 +67,10 @@ struct kd_null_displacement {
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
                                                     double dalpha, double dbeta);
 
-/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`. `pair`
- * is computed from the displacement, with a relative error of a few 1e-16 for any small displacement. m: the motion of
- * the displaced ray. The displacement must be some percent at most. Where the iteration does not converge (near a = 1,
- * where bend is small), the result is that of kd_null_roots_of. */
+/* Finds the roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`.
+ * `pair` is computed from the displacement, with a relative error of a few 1e-16 for any small displacement. m: the
+ * motion of the displaced ray. The displacement must be some percent at most. Where the iteration does not converge
+ * (near a = 1, where bend is small), the result is that of kd_null_roots_of. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);
 
 #endif

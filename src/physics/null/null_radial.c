@@ -7,19 +7,19 @@
 
 #include <math.h>
 
-/* Int (r - r1)/(r - r5) dr/sqrt(R) for a pole r5: (2/3) (d12 d13 d14/d15) R_J(..., u2) + 2 R_C(s^2, q2),
- * DLMF 19.29.8. */
+/* Arguments of Int (r - r1)/(r - r5) dr/sqrt(R) for a pole r5, which is (2/3) (d12 d13 d14/d15) R_J(..., u2) + 2
+ * R_C(s^2, q2) by DLMF 19.29.8. */
 struct pole { double u2, s, q2; };
 
 /* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
-    struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
-    struct pole plus, minus;   /* poles at the horizons                                                  */
-    struct pole slope;         /* divided differences of their numbers over r+ - r-, if that is close    */
-    double far;                /* U25^2 with the pole at infinity                                        */
-    double log;                /* elementary part of Int (r - r2) dr/sqrt(R) */
+    struct kd_carlson_arg arg; /* U12, U13 + U14 and U13 U14 */
+    struct pole plus, minus;   /* arguments for the poles at r+ and r- */
+    struct pole slope;         /* divided differences of these arguments over r+ - r-, if the horizons are close */
+    double far;                /* U25^2 with the pole r5 at infinity */
+    double log;                /* elementary part of the integral of (r - r2) dr/sqrt(R) */
     double ratio;              /* X1 Y1/(X2 Y2 U12)                                                      */
-    double edge;               /* sqrt(R)/(r - r2) between the ends                                      */
+    double edge;               /* difference of sqrt(R)/(r - r2) between the ends */
 };
 
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius)
@@ -28,7 +28,7 @@ enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double 
         return KD_NULL_OUTER;
     if (radius <= roots->r3)
         return KD_NULL_INNER;
-    /* A start at a turning point may be off it by rounding. */
+    /* Rounding may move a start at a turning point slightly off it. */
     if (radius >= roots->r4 * (1 - 1e-15))
         return KD_NULL_OUTER;
     return radius <= roots->r3 * (1 + 1e-15) ? KD_NULL_INNER : KD_NULL_FORBIDDEN;
@@ -135,7 +135,7 @@ static struct span span_inner(const struct kd_null_radial *q, const struct kd_nu
     return s;
 }
 
-/* Int dr/((r - r5) sqrt(R)) from Int (r - r1)/(r - r5) dr/sqrt(R). */
+/* Int dr/((r - r5) sqrt(R)), from the integral of (r - r1)/(r - r5) dr/sqrt(R). */
 static double at_pole(const struct kd_null_roots *o, const struct span *s, const struct pole *p, double r5, double tau)
 {
     double e = r5 - o->r1;
@@ -143,8 +143,8 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
     return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
 }
 
-/* Int dr/(Delta sqrt(R)), from `minus`, the integral at r-. It is the divided difference of at_pole over r+ - r-. The
- * divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). */
+/* Int dr/(Delta sqrt(R)). minus: the integral at_pole for r-. The result is the divided difference of at_pole over r+ -
+ * r-. The divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). */
 static double between_poles(const struct kd_null_radial *q, const struct span *s, double minus)
 {
     const struct kd_null_roots *o = &q->roots;
@@ -157,8 +157,8 @@ static double between_poles(const struct kd_null_radial *q, const struct span *s
     return ((2.0 / 3) * o->r21 * o->p1 / e_plus * j + 2 * c - minus) / e_plus;
 }
 
-/* Int (r^2 + 2r + 4 - q^2) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
- * dr/sqrt(R). */
+/* Int (r^2 + 2r + 4 - q^2) dr/sqrt(R). The integral of r^2 follows from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r
+ * - r2))) dr/sqrt(R). */
 static double powers(const struct kd_null_roots *o, const struct span *s, double four, double tau)
 {
     double first = (2.0 / 3) * o->r21 * o->p2 * kd_carlson_rj_arg(s->arg, s->far) + s->log + o->r2 * tau;
@@ -166,7 +166,8 @@ static double powers(const struct kd_null_roots *o, const struct span *s, double
     return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + four * tau;
 }
 
-/* Numerators over Delta of the rates in azimuth, a (2r + twist), and in time, slope r + rest. */
+/* Numerators of the rates that are divided by Delta: of the azimuth, a (2r + twist), and of the time, slope r + rest.
+ */
 struct numerators { double four, twist, slope, rest; };
 
 static struct numerators numerators_of(const struct kd_null_motion *m)
@@ -202,8 +203,8 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     const struct numerators n = numerators_of(&q->motion);
     double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
-    if (kd_hole_is_close(&q->motion.hole)) { /* the numerators are divided by r - 1, which is the mean of both poles and
-                                        a remainder */
+    /* divides the numerators by r - 1, into the mean of both poles and a remainder */
+    if (kd_hole_is_close(&q->motion.hole)) {
         double both = between_poles(q, &s, minus), mean = 0.5 * (plus + minus);
         sum.phi = a * (2 * mean + (2 + n.twist) * both);
         if (time)
@@ -217,7 +218,8 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     return sum;
 }
 
-/* Four real roots: sn^2 = r31 (r - r4)/(r41 (r - r3)), or inside r42 (r3 - r)/(r32 (r4 - r)). */
+/* Jacobi's functions for four real roots: sn^2 = r31 (r - r4)/(r41 (r - r3)) or, for INNER motion, r42 (r3 - r)/(r32
+ * (r4 - r)). */
 static void jacobi_four(struct kd_null_radial *q)
 {
     const struct kd_null_roots *o = &q->roots;
@@ -231,18 +233,18 @@ static void jacobi_four(struct kd_null_radial *q)
     q->d0 = sqrt(r43 / r42);
 }
 
-/* Two real roots: cn = (A (r - r1) - B (r - r2))/(A (r - r1) + B (r - r2)) with A = |r3 - r2|, B = |r3 - r1|:
- * at infinity (A - B)/(A + B). */
+/* Jacobi's functions for two real roots: cn = (A (r - r1) - B (r - r2))/(A (r - r1) + B (r - r2)) with A = |r3 - r2|
+ * and B = |r3 - r1|. At infinity cn is (A - B)/(A + B). */
 static void jacobi_two(struct kd_null_radial *q)
 {
     const struct kd_null_roots *o = &q->roots;
     double big_a = sqrt(o->p2), big_b = sqrt(o->p1), ab = big_a * big_b;
-    double inner = (o->mean - o->r1) * (o->mean - o->r2) - o->pair; /* the real part of (r3 - r1)(r4 - r2) */
-    double gap = -o->pair * o->r21 * o->r21;                        /* (AB)^2 - inner^2 */
+    double inner = (o->mean - o->r1) * (o->mean - o->r2) - o->pair; /* real part of (r3 - r1)(r4 - r2) */
+    double gap = -o->pair * o->r21 * o->r21;                        /* (A B)^2 - inner^2 */
     q->rate = sqrt(ab);
     q->k1 = inner > 0 ? gap / (2 * ab * (ab + inner)) : 0.5 * (1 - inner / ab);
     q->k = inner > 0 ? 0.5 * (1 + inner / ab) : gap / (2 * ab * (ab - inner));
-    /* A^2 - B^2 = (r1 - r2)(2 mean - r1 - r2) = -2 r21 (-r1 - r2) */
+    /* sum: A + B, by which A^2 - B^2 = (r1 - r2)(2 mean - r1 - r2) = -2 r21 (-r1 - r2) is divided */
     double sum = big_a + big_b;
     q->c0 = -4 * o->r21 * o->mean / (sum * sum);
     q->s0 = 2 * sqrt(ab) / sum;
@@ -284,10 +286,10 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
     return q;
 }
 
-/* Compares the time from infinity with `tau`, by the arguments of R_F alone. If a bound shows that the
- * time exceeds `tau`, it returns a value between the two. Most often the bound is sufficient, and no integral is
- * needed. The bound is R_F with three equal arguments of the same mean. R_F is never smaller than this, because it is
- * convex, and symmetric in its arguments (DLMF 19.16.1). */
+/* The Mino time from infinity, or a smaller value that still exceeds `tau`. A lower bound of the time comes from the
+ * arguments of R_F alone. Most often this bound exceeds `tau`; a value between the two is then returned, and no
+ * integral is needed. The bound is R_F with three equal arguments of the same mean. R_F is never smaller than this,
+ * because it is convex, and symmetric in its arguments (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
     struct kd_carlson_arg arg = arg_outer(at);
@@ -300,8 +302,8 @@ static struct kd_null_radius four_outer(const struct kd_null_radial *q, double t
     const struct kd_null_roots *o = &q->roots;
     double r31 = o->r3 - o->r1, r41 = o->r4 - o->r1, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
     struct kd_jacobi j = kd_jacobi(q->rate * tau, q->k, q->k1);
-    /* u = u0 - v by the addition theorems; den = r31 - r41 sn^2 u = r41 (sn^2 u0 - sn^2 u) = r41 sn v (the sum in
-     * sn(u0 + u)). */
+    /* u = u0 - v by the addition theorems. The denominator r31 - r41 sn^2 u is r41 (sn^2 u0 - sn^2 u), which is
+     * proportional to sn v. */
     double cross = q->d0 * q->d0 + q->k * q->s0 * q->s0 * j.cn * j.cn; /* 1 - k s0^2 sn^2 */
     double s = (q->s0 * j.cn * j.dn - q->c0 * q->d0 * j.sn) / cross;
     double c = (q->c0 * j.cn + q->s0 * q->d0 * j.sn * j.dn) / cross;
@@ -339,7 +341,7 @@ static struct kd_null_radius two_real(const struct kd_null_radial *q, double tau
 {
     const struct kd_null_roots *o = &q->roots;
     double big_a = sqrt(o->p2), big_b = sqrt(o->p1);
-    /* x = x0 - 2h; m = x0 - h: cn x - cn x0 = 2 sn m dn m sn h dn h/(1 - k sn^2 m sn^2 h). */
+    /* With x = x0 - 2h and m = x0 - h, cn x - cn x0 is 2 sn m dn m sn h dn h/(1 - k sn^2 m sn^2 h). */
     struct kd_jacobi h = kd_jacobi(0.5 * q->rate * tau, q->k, q->k1);
     double cross = q->d0 * q->d0 + q->k * q->s0 * q->s0 * h.cn * h.cn; /* 1 - k s0^2 sn^2 h */
     double s = (q->s0 * h.cn * h.dn - q->c0 * q->d0 * h.sn) / cross;
@@ -376,8 +378,8 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
     return r > q.r_plus ? r : 0;
 }
 
-/* DLMF 19.29 with a complex root singled out: the one of the left pair above the real axis. R_C's first argument has
- * a positive real part because r - r1 has. */
+/* The integral of DLMF 19.29 with a complex root r1 singled out: the root of the left pair that is above the real axis.
+ * The first argument of R_C has a positive real part, because r - r1 has one. */
 static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5, double tau)
 {
     double left = sqrt(-o->pair_left);
@@ -391,10 +393,11 @@ static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg 
     return creal((all - tau) / e);
 }
 
-/* a (2r + twist) dr/(Delta sqrt(R)) with r - 1 = from/x, from the start at x = 1 to infinity at x = 0. */
+/* The integral of a (2r + twist) dr/(Delta sqrt(R)) from the start to infinity, in the variable x with r - 1 = from/x.
+ * x is 1 at the start and 0 at infinity. */
 struct azimuth {
     const struct kd_null_roots *roots;
-    double from, beyond, root, twist; /* from: r - 1 at the start; beyond: r - r+ there */
+    double from, beyond, root, twist; /* from: r - 1 at the start. beyond: r - r+ at the start */
 };
 
 static double azimuth_at(double x, double y, const void *context)
@@ -413,12 +416,12 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     double p = sqrt(x * x + right), pl = sqrt(xl * xl + left);
     double both = 2 * (x > 0 ? p + x : right / (p - x)), both_left = 2 * (pl + xl);
     struct kd_carlson_arg arg = { p + pl, sqrt(both * both_left), 0 };
-    /* U13 U14 = p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
+    /* U13 U14 is p (r - r1 + r - r2) + pl (r - r3 + r - r4) */
     arg.root = 2 * (p * xl + pl * x);
     const struct numerators n = numerators_of(m);
     double plus = m->hole.outer, minus = m->hole.inner;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
-    if (kd_hole_is_close(&m->hole)) { /* R has no root outside the horizon: the integrand is smooth */
+    if (kd_hole_is_close(&m->hole)) { /* The integrand is smooth, because R has no root outside the horizon. */
         const struct azimuth z = { o, r - 1, kd_hole_past(&m->hole, r, plus), m->hole.root, n.twist };
         total.phi = m->hole.a * kd_quadrature(azimuth_at, &z);
         return total;

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* r - 1 of the prograde orbit without charge: r = 4 cos^2(acos(-a)/3) [Bardeen, Press & Teukolsky 1972, eq. 2.18]. With
- * d = acos(a)/3 it is 2 sin^2 d + sqrt(3) sin 2d, all positive. */
+/* y = r - 1 of the prograde equatorial orbit without charge, from r = 4 cos^2(acos(-a)/3) [Bardeen, Press & Teukolsky
+ * 1972, eq. 2.18]. With d = acos(a)/3 it is 2 sin^2 d + sqrt(3) sin 2d, in which all terms are positive. */
 static double prograde_y(double spin)
 {
     double d = 2.0 / 3 * asin(sqrt(0.5 * (1 - spin)));
@@ -20,8 +20,8 @@ static double place_of(const struct kd_shell *s, double y, double w)
     return y >= half ? w : (half / s->spin) * (log(y / half) - 1);
 }
 
-/* y_P by Newton's method from y = 2, where the cubic is 4a^2 + 6q^2 >= 0 and beyond which it is convex. c: 1 + a^2 +
- * 2N. */
+/* y_P by Newton's method. It starts from y = 2, where the cubic is 4a^2 + 6q^2 >= 0; beyond this point the cubic is
+ * convex. c: 1 + a^2 + 2N. */
 static double polar_y(double c, double n)
 {
     double y = 2;
@@ -30,7 +30,7 @@ static double polar_y(double c, double n)
     return y;
 }
 
-/* With charge: the equatorial orbits are the roots of P of kerr.h, and x = -+2s/(y + y_0 - 1) there. */
+/* The shell of a charged hole. The equatorial orbits are the roots of P of kerr.h, and have x = -+2s/(y + y_0 - 1). */
 static void charged_shell(struct kd_shell *s, const struct kd_hole *hole)
 {
     const double a2 = s->spin * s->spin;
@@ -57,7 +57,7 @@ struct kd_shell kd_shell_of(const struct kd_hole *hole)
     }
     s.y_polar = polar_y(3 - a2, s.n);
     s.x_polar = -4 * s.spin / ((1 + s.y_polar) * (1 + s.y_polar) + a2);
-    /* On the equatorial orbits r x^2 = 4. */
+    /* The equatorial orbits satisfy r x^2 = 4. */
     double y = prograde_y(s.spin);
     s.prograde = place_of(&s, y, -2 / sqrt(1 + y) - s.x_polar);
     s.retrograde = 2 / sqrt(kd_kerr_photon_orbit(kd_hole(-s.spin))) - s.x_polar;
@@ -108,13 +108,13 @@ double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *
     return q * q * o->eta + 4 * (hole->q * hole->q) * kd_hole_delta_y(hole, o->y) / (o->y * o->y);
 }
 
-/* The polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), disc = n + a^2
- * z. The radial rates use (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits. */
+/* Polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), and disc = n + a^2 z.
+ * The radial rates use (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits. */
 struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *o)
 {
     double a = fabs(o->a), a2 = a * a, lambda = fabs(o->lambda), eta = fmax(o->eta, 0), r = o->r;
     double retro = o->w > 0 ? -1 : 1;                /* sign of a lambda */
-    double minus = eta + o->lambda * o->lambda - a2; /* n - a^2 z > 0 */
+    double minus = eta + o->lambda * o->lambda - a2; /* n - a^2 z, which is positive */
     double disc = hypot(minus, 2 * a * sqrt(eta)), n = 0.5 * (disc + minus), z = eta / n, root = sqrt(disc);
     double cc = lambda / (n + a2), nu = a2 * cc * cc, k1 = n / disc;
     double f = kd_carlson_rf(0, k1, 1);

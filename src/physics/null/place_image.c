@@ -9,8 +9,8 @@
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 #define FOUND 1e-9 /* relative change of the radius at which the search stops */
 #define WRONG 1e-5
-/* Distances from the hole on the sky at which the search starts, in M: all of them beyond LEAST, and those from NEAR to
- * FAR close to the critical curve. */
+/* Distances (M) from the hole on the sky at which the search starts. All are beyond LEAST. Those from NEAR to FAR are
+ * close to the critical curve. */
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9
@@ -18,8 +18,8 @@ enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
     (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; without spin it would be half a \
                   * turn */
 
-/* A vector in (r, theta, phi), which are treated as flat spherical coordinates; this is good enough to compare
- * distances. */
+/* A vector with components along r, theta and phi, which are treated as flat spherical coordinates. This is good enough
+ * to compare distances. */
 struct vector { double x[3]; };
 
 static struct vector less(const struct vector *a, const struct vector *b)
@@ -46,11 +46,11 @@ struct search {
     const struct kd_place_view *view;
     struct vector place;
     double r;
-    struct kd_null_place *places; /* room for PLACES */
+    struct kd_null_place *places; /* memory for PLACES places */
 };
 
-/* The ray at a point of the chart. At infinity the chart's coordinates are alpha and beta; otherwise they are those of
- * the direction, by stereographic projection about -r. */
+/* The ray at a point of the chart. For an observer at infinity the chart's coordinates are alpha and beta. Otherwise
+ * they are those of the direction, by stereographic projection about -r. */
 static bool ray_of(const struct kd_place_view *view, const double at[2], struct kd_null_ray *ray, struct kd_look *look)
 {
     const struct kd_vantage *v = &view->frame.at;
@@ -101,10 +101,11 @@ static struct vector between(const struct kd_null_place *p, double mino, double 
     return (struct vector) { { n[0] * size, n[1] * size, n[2] * size } };
 }
 
-/* The closest approach of a ray to the place. */
+/* The point of a ray that is closest to the place. */
 struct miss {
     struct vector off, way;
-    double size, delay, swept; /* swept: angle that the direction from the hole has swept since the observer */
+    /* size: distance from the place. swept: angle that the direction from the hole has swept since the observer */
+    double size, delay, swept;
 };
 
 /* Squared distance of the place from a segment of the ray. */
@@ -117,12 +118,12 @@ static double apart(const struct search *s, const struct vector *from, const str
     return dot(&off, &off);
 }
 
-/* The point of the cubic that is closest to the place, between two Mino times. */
+/* The closest point to the place, on the cubic between two Mino times. */
 static struct miss nearest(const struct search *s, const struct kd_null_place *four, double low, double high)
 {
     struct miss best = { .size = INFINITY };
     double step = high - low;
-    for (int round = 0; round < 24; round++) { /* ternary search: the distance has a single minimum there */
+    for (int round = 0; round < 24; round++) { /* ternary search, because the distance has a single minimum there */
         double one, other;
         const double a = low + step / 3, b = high - step / 3;
         const struct vector at = between(four, a, &one), to = between(four, b, &other), u = less(&at, &s->place),
@@ -148,7 +149,8 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     return best;
 }
 
-/* Removes crossings. They may lie close to other places, and a cubic through both would be ill-conditioned. */
+/* Removes crossings from a list of places. They may lie close to other places, and a cubic through both would be
+ * ill-conditioned. */
 static size_t apart_in_time(struct kd_null_place *p, size_t n)
 {
     size_t kept = 0;
@@ -190,7 +192,7 @@ static bool misses(const struct search *s, const double at[2], struct miss *out)
     return isfinite(out->size);
 }
 
-/* Two directions perpendicular to the ray. */
+/* Two unit vectors perpendicular to the ray. */
 static void across(const struct miss *m, struct vector axes[2])
 {
     const double *w = m->way.x;
@@ -229,7 +231,7 @@ static bool step_from(const struct search *s, const double at[2], const struct m
     return isfinite(step[0]) && isfinite(step[1]);
 }
 
-/* Newton's method from a guess to the image; a step is halved until the distance decreases. */
+/* Finds the image by Newton's method from a guess. A step is halved until the distance decreases. */
 static bool solve(const struct search *s, double at[2], struct miss *m)
 {
     if (!misses(s, at, m))
@@ -253,7 +255,7 @@ static bool solve(const struct search *s, double at[2], struct miss *m)
     return m->size < WRONG * s->r;
 }
 
-/* Distances from the hole on the sky, ascending: half of them near the critical curve. */
+/* Lists distances from the hole on the sky, in ascending order. Half of them are near the critical curve. */
 static void distances(const struct search *s, double to[GUESSES])
 {
     const double from = s->view->frame.at.r, most = isinf(from) ? 3 * s->r + 30 : 60 * from,
@@ -267,7 +269,8 @@ static void distances(const struct search *s, double to[GUESSES])
     }
 }
 
-/* Starts from the outermost distance with a local minimum of the approach, on the place's side of the sky. */
+/* Searches along one direction on the place's side of the sky. It starts at the outermost distance where the closest
+ * approach has a local minimum. */
 static bool search_along(const struct search *s, double way, double turned, double at[2], struct miss *m)
 {
     const double towards[2] = { cos(way + turned), sin(way + turned) }, side[2] = { cos(way), sin(way) };

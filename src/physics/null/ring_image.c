@@ -7,14 +7,14 @@
 
 #define STEP (2 * M_PI / 64) /* step of chi between nodes */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7 /* allowed error of ln r, which is sufficient for a table */
-#define TURN 1.0   /* maximum change of phi between nodes: near pi its direction would be ambiguous */
+#define TABLE 1e-7 /* allowed error of ln r; sufficient for a table */
+#define TURN 1.0   /* largest change of phi between nodes; near pi the direction of the change would be ambiguous */
 #define STRETCH \
     0.2 /* maximum change of ln rho between nodes; at a corner of the image phi may turn by 2 pi, which TURN does not \
          * detect */
 
-/* alpha and beta of the point at the distance e^log_rho in the direction chi. chi is uniform round a ring that is seen
- * unlensed from afar, (cos chi, cos i sin chi). */
+/* alpha and beta of the point at the distance e^log_rho in the direction chi. chi is such that it advances evenly round
+ * a ring seen unlensed from afar, whose image is (cos chi, cos i sin chi). */
 static void place(const struct kd_ring_image *ring, double chi, double log_rho, double *alpha, double *beta)
 {
     double x = cos(chi), y = ring->flatten * sin(chi), rho = exp(log_rho) / hypot(x, y);
@@ -22,7 +22,8 @@ static void place(const struct kd_ring_image *ring, double chi, double log_rho, 
     *beta = rho * y;
 }
 
-/* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
+/* ln(r_n/r), with r_n the radius of crossing n; -INFINITY if the ray is captured before that crossing, INFINITY if it
+ * escapes before it. */
 static double mismatch(const struct kd_ring_image *ring, double chi, double log_rho, struct kd_null_crossing *crossing)
 {
     struct kd_null_ray ray = { .hole = ring->hole,
@@ -38,8 +39,8 @@ static double mismatch(const struct kd_ring_image *ring, double chi, double log_
     return log(crossing->r / ring->radius);
 }
 
-/* Solves ln r_n = ln r along chi from a guess: expands to a sign change, bisects until both ends have a crossing,
- * then uses the Illinois method until |ln r_n/r| is below the bound. */
+/* Solves ln r_n = ln r along chi from a guess. It expands a range until the sign changes, bisects until both ends have
+ * a crossing, and then uses the Illinois method until |ln r_n/r| is below `bound`. */
 static bool approach(const struct kd_ring_image *ring, double chi, double bound, double *log_rho,
                      struct kd_null_crossing *crossing)
 {
@@ -66,13 +67,13 @@ static bool approach(const struct kd_ring_image *ring, double chi, double bound,
             side = 2;
         }
     }
-    return fabs(h) < TABLE; /* the remaining error is rounding */
+    return fabs(h) < TABLE; /* accepts a small remainder, which is due to rounding */
 }
 
 /* x minus whole turns, between -pi and pi. */
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Adds one node, at most `step` further; false if no node is left or the image is not found. */
+/* Adds one node, at a distance of at most `step`. Returns false if no node is left or the image is not found. */
 static bool add_node(struct kd_ring_image *ring, double *step)
 {
     int k = ring->nodes - 1;
@@ -108,7 +109,7 @@ struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double incl
                                     .order = order };
 }
 
-/* First guess: next to the critical curve, or where the ring would be without lensing. */
+/* First guess of ln rho: next to the critical curve, or where the ring would be seen without lensing. */
 static double around(const struct kd_ring_image *ring) { return log(ring->order ? 5.2 : ring->radius + 1); }
 
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r, int order)
@@ -128,7 +129,8 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 
-/* The azimuth of the image in the direction chi, minus the requested azimuth. *log_rho is a guess on entry. */
+/* The azimuth of the image in the direction chi, minus the requested azimuth. *log_rho: on entry a guess, on return the
+ * solution. */
 static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;
@@ -137,7 +139,8 @@ static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, do
     return found;
 }
 
-/* Solves for phi between the nodes k and k + 1, by the Illinois method to 1e-4: close enough for Newton's method. */
+/* Solves for phi between the nodes k and k + 1, by the Illinois method, to 1e-4. This is close enough for Newton's
+ * method. */
 static bool bracket(const struct kd_ring_image *ring, double phi, int k, double *chi, double *log_rho)
 {
     double low = ring->chi[k], high = ring->chi[k + 1], f = turn(ring->phi[k] - phi),
@@ -161,7 +164,7 @@ static bool bracket(const struct kd_ring_image *ring, double phi, int k, double 
     return false;
 }
 
-/* Slope of ln r_n in ln rho. It is steep for late orders and large r, so that the step is adapted. */
+/* Slope of ln r_n in ln rho. For late orders and large r it is steep, so the step of the difference is adapted. */
 static double slope(const struct kd_ring_image *ring, double chi, double log_rho, double f, double *phi_slope,
                     double phi)
 {
@@ -175,8 +178,8 @@ static double slope(const struct kd_ring_image *ring, double chi, double log_rho
     return change / h;
 }
 
-/* One step of Newton's method for (ln r_n, phi) = (ln r, phi) in (chi, ln rho). Returns its size, INFINITY where
- * there is no crossing. */
+/* One step of Newton's method in (chi, ln rho) for (ln r_n, phi) = (ln r, phi). Returns the size of the step, or
+ * INFINITY where there is no crossing. */
 static double newton(const struct kd_ring_image *ring, double phi, double *chi, double *log_rho,
                      struct kd_null_crossing *here)
 {
@@ -186,7 +189,7 @@ static double newton(const struct kd_ring_image *ring, double phi, double *chi, 
     if (!isfinite(f))
         return INFINITY;
     double f_rho = slope(ring, *chi, *log_rho, f, &g_rho, here->phi);
-    /* Along the ring's image r_n hardly changes. One of the two difference steps is taken along the image. */
+    /* r_n hardly changes along the ring's image. One of the two difference steps is taken in this direction. */
     double f_chi = mismatch(ring, *chi + h, *log_rho, &shifted) - f, along = isfinite(f_chi) ? f_chi / f_rho : NAN;
     double f_on = (mismatch(ring, *chi + h, *log_rho - along, &shifted) - f) / h,
            g_on = turn(shifted.phi - here->phi) / h;

@@ -13,15 +13,18 @@ struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, con
     return (struct kd_ring_view) { kd_observer_tetrad(&rain, at), kd_observer_tetrad(motion, at), r, order };
 }
 
-/* Components in the rain frame of the photon seen at tan(rho/2) = e^h, in the direction chi. */
+/* Components, in the rain frame, of the photon that is seen in the direction chi at the angle rho with tan(rho/2) =
+ * e^h. */
 static void photon_at(const struct kd_ring_view *view, double chi, double h, double x[4])
 {
     const double right = cos(chi), up = fabs(view->rain.at.u) * sin(chi),
-                 off = 1 / (cosh(h) * hypot(right, up)); /* sin(rho) = 1/cosh(h) */
+                 /* off: sin(rho) = 1/cosh(h), divided by the length of (right, up) */
+        off = 1 / (cosh(h) * hypot(right, up));
     x[0] = 1, x[1] = -tanh(h), x[2] = off * up, x[3] = -off * right;
 }
 
-/* ln(r_n/r); -INFINITY for a ray captured before its crossing n, INFINITY for one that escapes. */
+/* ln(r_n/r), with r_n the radius of crossing n; -INFINITY if the ray is captured before that crossing, INFINITY if it
+ * escapes before it. */
 static double mismatch(const struct kd_ring_view *view, double chi, double h)
 {
     double x[4];
@@ -31,8 +34,8 @@ static double mismatch(const struct kd_ring_view *view, double chi, double h)
     return r > 0 ? log(r / view->radius) : -INFINITY;
 }
 
-/* Solves ln r_n = ln r along chi: expands from a guess to a sign change, bisects until both ends have a crossing,
- * then uses the Illinois method. */
+/* Solves ln r_n = ln r along chi. From a guess it expands a range until the sign changes, bisects until both ends have
+ * a crossing, and then uses the Illinois method. */
 static bool solve(const struct kd_ring_view *view, double chi, double *h, double *residual)
 {
     double at = log(view->radius / view->rain.at.r), f = mismatch(view, chi, at), other = at, g = f, miss = INFINITY;
@@ -56,7 +59,7 @@ static bool solve(const struct kd_ring_view *view, double chi, double *h, double
     return fabs(miss) < 1e-6;
 }
 
-/* phi and delay, from the closed form. */
+/* Adds phi and delay to a point, from the closed form. */
 static void add_place(const struct kd_ring_view *view, const struct kd_covector *photon, struct kd_ring_view_point *out)
 {
     const struct kd_vantage *at = &view->rain.at;

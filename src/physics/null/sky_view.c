@@ -4,7 +4,7 @@
 
 enum { EDGE_POINTS = 512 };
 
-/* Energy at infinity of a photon seen in the direction k = (right, up, inwards). */
+/* Energy at infinity of a photon seen in the direction k = (right, up, inwards) with energy 1. */
 static double energy(const struct kd_tetrad *f, const double k[3])
 {
     return f->t.energy + k[2] * f->r.energy + k[1] * f->theta.energy - k[0] * f->phi.energy;
@@ -36,8 +36,9 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
 }
 
 /* Solid angle enclosed by the edge. It is extrapolated (Romberg) from the areas of three polygons, whose errors are
- * powers of the squared step. The triangles of a polygon meet in a direction inside it. If most of the edge is closer
- * to the opposite direction, the triangles meet there, and their sum differs only by 4 pi. */
+ * series in the squared step. The triangles of a polygon meet in a direction inside the polygon. If most of the edge is
+ * closer to the opposite direction, the triangles meet in that direction instead, and their sum differs only by 4 pi.
+ */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {
     struct kd_critical_point middle = { .right = sin(edge->centre), .inwards = cos(edge->centre) };
@@ -52,8 +53,8 @@ static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS
     return angle < 0 ? angle + 4 * M_PI : angle;
 }
 
-/* Maximum of sign * E on the edge: golden section between the neighbours of the highest point; at a maximum the
- * error is the square of the width. */
+/* Largest value of sign * E on the edge, by golden section between the neighbours of the highest point. The error of
+ * the value is the square of the bracket's width. */
 static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3], int sign)
 {
     const double golden = 0.5 * (sqrt(5) - 1), step = 2 * M_PI / EDGE_POINTS;
@@ -76,8 +77,8 @@ static double extreme(const struct kd_sky_view *v, double points[EDGE_POINTS][3]
     return sign * fmax(there, sample);
 }
 
-/* True if the direction is in the dark disk. It is compared with the edge in polar coordinates about the middle of the
- * dark disk, in the frame of the edge: every angle meets the edge once. */
+/* True if the direction is in the dark disk. The direction is compared with the edge in polar coordinates about the
+ * middle of the dark disk, in the frame of the edge, where every angle meets the edge once. */
 static bool is_dark(const struct kd_sky_view *v, const double k[3])
 {
     double right = k[0], up = k[1], inwards = k[2];

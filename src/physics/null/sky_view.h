@@ -14,18 +14,20 @@
 #include "physics/null/critical.h"
 
 struct kd_sky_view {
-    enum kd_critical_status status; /* unless KD_CRITICAL_OK, no other member is set, and no function accepts it */
+    /* if it is not KD_CRITICAL_OK, no other member is set, and the view must not be passed to a function */
+    enum kd_critical_status status;
     struct kd_critical edge;
     struct kd_tetrad tetrad;
     double dark;            /* solid angle of the dark disk */
     double least, greatest; /* smallest and largest g over the visible sky */
 };
 
-/* The radius must be finite (otherwise KD_CRITICAL_BAD_INPUT). Takes some 1.5 ms. Relative errors: 1e-9 of `dark`, for
- * spins up to 0.99; 1e-12 of `least` and `greatest` where they lie on the edge, from its rounding. */
+/* Makes a view. The radius must be finite; otherwise the status is KD_CRITICAL_BAD_INPUT. Takes some 1.5 ms. The
+ * relative error of `dark` is 1e-9 for spins up to 0.99. The relative error of `least` and `greatest` is 1e-12 where
+ * they lie on the edge, from rounding of the edge. */
 struct kd_sky_view kd_sky_view_of(const struct kd_critical_observer *observer);
 
-/* g of the sky in a direction (a unit vector); NaN in the dark disk. Takes some 2 microseconds. */
+/* g of the sky in a direction, which is a unit vector; NaN in the dark disk. Takes some 2 microseconds. */
 double kd_sky_view_shift(const struct kd_sky_view *view, const double direction[3]);
 
 #endif

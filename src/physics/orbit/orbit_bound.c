@@ -6,10 +6,11 @@
 
 #include <math.h>
 
-/* sn, cn^2 and dn^2 of a phase between 0 and K, each without cancellation. */
+/* A phase between 0 and K, by sn, cn^2 and dn^2, each without cancellation. */
 struct phase { double s, c2, d2; };
 
-/* Int sn^2 and Int sn^2/(1 - n sn^2); rest: 1 - n sn^2 at the end. */
+/* Integrals from 0 to a phase: of sn^2, and of sn^2/(1 - n sn^2) by the next function. rest: 1 - n sn^2 at the phase.
+ */
 static double integral_s2(struct phase at)
 {
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rd(at.c2, at.d2, 1) / 3;
@@ -20,8 +21,9 @@ static double integral_pole(struct phase at, double rest)
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rj(at.c2, at.d2, 1, rest) / 3;
 }
 
-/* Int du/Delta from that over r - r-: the divided difference of `j_plus` below over r+ - r-. The divided difference D
- * of a product is D(f g) = f(r+) D(g) + g(r-) D(f). beyond: r2 - r+ and r2 - r-; s2: sn^2 at the end. */
+/* Int du/Delta, from the integral of du/(r - r-). It is the divided difference, over r+ - r-, of the integral `j_plus`
+ * below. The divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). beyond: r2 - r+ and r2 - r-; s2:
+ * sn^2 at the end. */
 static double between_poles(const struct kd_orbit_bound *b, double u, struct phase at, const double beyond[2])
 {
     const double s2 = at.s * at.s, fall = b->h * (b->r[1] - b->r[2]), both = beyond[0] * beyond[1],
@@ -38,8 +40,9 @@ static double between_poles(const struct kd_orbit_bound *b, double u, struct pha
  *
  *   r = r2 + (r2 - r3) h s/(1 - h s)      1/(r - r5) = (1 - h (r2 - r3)/(r2 - r5) s/(1 - h5 s))/(r2 - r5)
  *
- * h = (r1 - r2)/(r1 - r3), h5 = h (r3 - r5)/(r2 - r5) [Fujita & Hikida eqs 27 to 32]. Int r^2 follows from d/du [sn
- * cn dn/(1 - h s)], which leaves only the integrals of s and of s/(1 - h s), and k_r/h = q stays finite:
+ * where h = (r1 - r2)/(r1 - r3) and h5 = h (r3 - r5)/(r2 - r5) [Fujita & Hikida eqs 27 to 32]. The integral of r^2
+ * follows from d/du [sn cn dn/(1 - h s)]. With S and T the integrals of s and of s/(1 - h s), and q = k_r/h, which
+ * stays finite,
  *
  *   Int r^2 = r2^2 u + 2 r2 (r2 - r3) h T - (r1 - r3)(r2 - r4) h/2 [sn cn dn/(1 - h s) - u - (3h - 2 - 2k + q) T +
  *     q S] */
@@ -64,7 +67,8 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     double poles_t = ((o->near * plus - flat) * j_plus - (o->near * minus - flat) * j_minus) / gap;
     double twice = 2 * o->energy, back = o->drag;
     double poles_phi = ((twice * plus - back) * j_plus - (twice * minus - back) * j_minus) / gap;
-    if (kd_hole_is_close(&o->hole)) { /* the numerators are divided by r - 1: the mean of both poles, and a remainder */
+    /* divides the numerators by r - 1, into the mean of both poles and a remainder */
+    if (kd_hole_is_close(&o->hole)) {
         double mean = 0.5 * (j_plus + j_minus), both = between_poles(b, u, at, beyond);
         poles_t = o->near * mean + (o->near - flat) * both;
         poles_phi = twice * mean + (twice - back) * both;
@@ -96,7 +100,7 @@ static struct kd_orbit_sums combine(double n, struct kd_orbit_sums half, double 
                                     n * half.phi + sign * rest.phi };
 }
 
-/* A phase reduced to a quarter period; `halves` counts phases of 2K. */
+/* A phase reduced to a quarter period. halves: number of phases of 2K that were removed. */
 struct reduced {
     double halves, sign, rest;
     struct phase at;
@@ -136,7 +140,7 @@ static void set_radial(struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double g[3], *r = b->r;
-    kd_orbit_factor(o, g); /* the other two roots are those of g0 r^2 + g1 r + g2 */
+    kd_orbit_factor(o, g); /* g0 r^2 + g1 r + g2 has the other two roots */
     r[0] = 1 / o->w_low, r[1] = 1 / o->w_high;
     r[2] = (sqrt(fmax(g[1] * g[1] - 4 * g[0] * g[2], 0)) - g[1]) / (2 * g[0]);
     r[3] = g[2] / (g[0] * r[2]);
@@ -168,7 +172,7 @@ static void set_polar(struct kd_orbit_bound *b)
         b->half_z.phi = 0.5 * M_PI;
 }
 
-/* The phase since periastron, between -K and K. */
+/* Radial phase since periastron, between -K and K. */
 static double radial_phase(const struct kd_orbit_bound *b, const struct kd_orbit_state *start)
 {
     const double *r = b->r;
@@ -239,11 +243,11 @@ struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound 
     return f;
 }
 
-/* 2 K(k)/pi - 1 by the arithmetic-geometric mean, where each number is stored as its difference from 1. */
+/* 2 K(k)/pi - 1 by the arithmetic-geometric mean. Each number is stored as its difference from 1. */
 static double complete_excess(double k)
 {
     double x = 0, y = k / (1 + sqrt(1 - k));
-    for (int i = 0; i < 8; i++) { /* quadratic convergence: 8 suffice for k = 1 - 1e-16 */
+    for (int i = 0; i < 8; i++) { /* eight steps suffice for k = 1 - 1e-16, because convergence is quadratic */
         double both = x + y - x * y;
         x = 0.5 * (x + y);
         y = both / (1 + sqrt(1 - both));
@@ -251,17 +255,17 @@ static double complete_excess(double k)
     return x / (1 - x);
 }
 
-/* Advance about a hole without spin: 4 K(k)/sqrt(1 - less) - 2 pi, with 1 - less = b (r1 - r3)(r2 - r4)/l^2. Without
- * charge r4 = 0, less = (6 - 2e)/p and k = 4e/(p - 6 + 2e): C. Darwin 1961, Proc. R. Soc. A 263, 39. With charge less
- * follows from the coefficient of w^2 in W, without cancellation: W = (w - w_low)(w_high - w)(g0 + g1 w + g2 w^2),
- * whose last factor, times r^2, is g0 (r - r3)(r - r4). */
+/* Advance of the periastron about a hole without spin: 4 K(k)/sqrt(1 - less) - 2 pi, with 1 - less = b (r1 - r3)(r2 -
+ * r4)/l^2. Without charge r4 = 0, less = (6 - 2e)/p and k = 4e/(p - 6 + 2e) (C. Darwin 1961, Proc. R. Soc. A 263, 39).
+ * With charge less follows from the coefficient of w^2 in W, without cancellation: W = (w - w_low)(w_high - w)(g0 + g1
+ * w + g2 w^2), whose last factor, times r^2, is g0 (r - r3)(r - r4). */
 static double advance_in_a_plane(const struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double less = 2 * o->w_high + 4 * o->w_low, apart = 2;
     double g[3];
     kd_orbit_factor(o, g);
-    if (g[2] != 0) { /* r4 > 0 */
+    if (g[2] != 0) { /* the case r4 > 0 */
         double third = g[0] * b->r[2], fourth = g[0] * b->r[3];
         less = (third * (2 * o->w_low + o->w_high) + fourth * (o->w_low + 2 * o->w_high) +
                 kd_hole_own_quadratic(&o->hole)) /

@@ -1,46 +1,49 @@
 /* Bound timelike geodesics of Kerr, with or without charge, in closed form: place and time at any Mino time, and the
  * fundamental frequencies. Double precision, pure functions, any thread. Units G = c = M = 1.
  *
- * R. Fujita & W. Hikida 2009, arXiv:0906.1420 (r, theta, t, phi by elliptic functions; frequencies as S. Drasco & S.
- * A. Hughes 2004, astro-ph/0308479, define them). Their integrals of the third kind are written with Carlson's R_J,
- * so that circular and equatorial orbits, and those through the axis, are no special cases. */
+ * R. Fujita & W. Hikida 2009, arXiv:0906.1420 give r, theta, t and phi by elliptic functions, and the frequencies that
+ * S. Drasco & S. A. Hughes 2004, astro-ph/0308479, define. Their integrals of the third kind are written with Carlson's
+ * R_J, so that circular and equatorial orbits, and those through the axis, are no special cases. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_BOUND_H
 #define KD_PHYSICS_ORBIT_ORBIT_BOUND_H
 
 #include "physics/orbit/timelike.h"
 
-/* Increases of the coordinates. */
+/* Increases of proper time, t and phi over a part of an orbit. */
 struct kd_orbit_sums { double proper, t, phi; };
 
 struct kd_orbit_bound {
     struct kd_orbit orbit;
-    double r[4]; /* roots of R, r[0] >= r[1] > r[2] >= r[3]; r[0] and r[1] are the turning points */
-    double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
-    double unit_r;                       /* equal to the pace; 1 for a circle, where quarter_r is 1 and half_r holds
-                                          * the rates */
-    double beyond[2];                    /* distances r[1] - r+ and r[1] - r- */
+    double r[4]; /* roots of R, with r[0] >= r[1] > r[2] >= r[3]; r[0] and r[1] are the turning points */
+    /* r is a function of sn^2(pace lambda | k), where lambda is Mino time. quarter: K(k). k1: 1 - k */
+    double pace_r, k_r, k1_r, quarter_r;
+    /* the same as pace_r; for a circle it is 1, quarter_r is 1, and half_r holds rates */
+    double unit_r;
+    double beyond[2]; /* distances r[1] - r+ and r[1] - r- */
     double h, h_plus, h_minus;
-    double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
-    /* sums from periastron to apastron, and from the equator to a turning point of theta */
+    double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k), with members named as above */
+    /* increases from periastron to apastron, and from the equator to a turning point of theta */
     struct kd_orbit_sums half_r, half_z;
-    /* pace times Mino time at the start, counted from periastron and from the ascending node */
+    /* phases at the start: pace times Mino time since periastron, and since the ascending node */
     double phase_r, phase_z;
     struct kd_orbit_sums start_r, start_z;
 };
 
-/* orbit.fate must be BOUND. start: from kd_orbit_start, or any other point of the orbit. */
+/* Makes the closed form. orbit.fate must be BOUND. start: the result of kd_orbit_start, or any other point of the
+ * orbit. */
 struct kd_orbit_bound kd_orbit_bound_of(const struct kd_orbit *orbit, const struct kd_orbit_state *start);
 
 struct kd_orbit_frequencies {
     double mino_r, mino_theta, mino_phi, mino_t,
-        mino_proper;      /* per Mino time: Upsilon_r, Upsilon_theta, Upsilon_phi, Gamma, and the rate of proper time */
-    double r, theta, phi; /* per coordinate time */
+        /* frequencies per Mino time: Upsilon_r, Upsilon_theta, Upsilon_phi; Gamma; and the rate of proper time */
+        mino_proper;
+    double r, theta, phi; /* frequencies per coordinate time */
 };
 struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound *bound);
 
-/* Azimuth gained beyond a full turn: from one periastron to the next, 2 pi (|Upsilon_phi| / Upsilon_r - 1), and from
- * one ascending node to the next. For a = 0 the periastron's advance is computed without cancellation, however wide the
- * orbit. */
+/* Advances, which are azimuths gained beyond a full turn. The first is from one periastron to the next, 2 pi
+ * (|Upsilon_phi| / Upsilon_r - 1). The second is from one ascending node to the next. For a = 0 the advance of the
+ * periastron is computed without cancellation, however wide the orbit is. */
 double kd_orbit_periastron_advance(const struct kd_orbit_bound *bound);
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *bound);
 

@@ -9,7 +9,8 @@
 typedef double lane __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 
-/* The widest vectors of the processor, selected when the program is loaded. */
+/* Compiles a function for several vector widths. The widest that the processor has is selected when the program is
+ * loaded. */
 #if defined(__x86_64__) && defined(__has_attribute)
 #if __has_attribute(target_clones) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -20,7 +21,7 @@ typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 #endif
 #define INLINE static inline __attribute__((always_inline))
 
-enum { PIECE = 4096 }; /* steps between two preemption points */
+enum { PIECE = 4096 }; /* number of steps between two preemption points */
 
 struct exact { lane value, rest; };
 
@@ -28,7 +29,7 @@ struct spring { lane strength, centre, kick[4], drift[4]; };
 
 struct state {
     lane a, a2, root, energy, momentum, binding, z, n, axis_gap, total, w_low, w_high, g[3], c[5], horizon;
-    lane drag, four, near, nearer, twist, nu, stiff, mass[2], h; /* mass: kd_hole_mass_line */
+    lane drag, four, near, nearer, twist, nu, stiff, mass[2], h; /* mass: coefficients of kd_hole_mass_line */
     struct spring spring[KD_PATH_PLACES];
     struct exact place[KD_PATH_PLACES], rate[KD_PATH_RATES], mino;
     mask half_turns;
@@ -44,7 +45,7 @@ INLINE void add(struct exact *to, const lane *by)
 
 INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
 {
-    /* bits without the sign: for non-negative doubles, integer order is the same */
+    /* removes the sign: non-negative doubles have the same order as their bits as integers */
     mask size = (mask)*x & INT64_MAX & *where;
     mask greater = size > (mask)*greatest;
     *greatest = (lane)((size & greater) | ((mask)*greatest & ~greater));
@@ -110,8 +111,8 @@ INLINE void look(struct state *s)
     keep_greater(&s->worst_binet, &radial, &all);
 }
 
-/* Takes `steps` steps of all lanes; returns the number left. It ends early after a step in which w ceased to grow in
- * some lane: *turned. */
+/* Takes `steps` steps of all lanes, and returns the number left. It ends early, and sets *turned, after a step in which
+ * w stopped growing in some lane. */
 WIDEST static uint64_t go(struct state *s, uint64_t steps, bool looks, bool stops, mask *turned)
 {
     const mask none = { 0 };
@@ -150,7 +151,7 @@ static struct kd_exact get_exact(const struct exact *from, int i)
     return (struct kd_exact) { from->value[i], from->rest[i] };
 }
 
-/* Loads a lane. A lane with h = 0 does not move. */
+/* Loads a path into a lane. A lane with h = 0 does not move. */
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;

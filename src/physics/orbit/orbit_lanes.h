@@ -1,5 +1,6 @@
-/* Follows eight paths side by side in SIMD lanes, for lists of orbits. Eight scalar paths give the same results bit for
- * bit, but take several times as long: in a single path each sum must wait for the one before. Any thread. */
+/* Follows eight paths side by side in SIMD lanes, for lists of orbits. The results are the same, bit for bit, as those
+ * of eight scalar paths. Scalar paths take several times as long, because in a single path each sum must wait for the
+ * sum before. Any thread. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_LANES_H
 #define KD_PHYSICS_ORBIT_ORBIT_LANES_H
 
@@ -8,18 +9,18 @@
 #define KD_ORBIT_LANES 8
 
 struct kd_orbit_lanes {
-    struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all different */
+    struct kd_orbit_path *path[KD_ORBIT_LANES]; /* the paths, which must all be different */
     double h[KD_ORBIT_LANES];
     /* number of steps of each path; a path with 0 steps is not moved, but its pointer must be set */
     uint64_t steps[KD_ORBIT_LANES];
-    /* Receive the largest absolute drift after any step. If all are NULL, drifts are not computed. */
+    /* Memory for the largest absolute drifts after any step. If all pointers are NULL, drifts are not computed. */
     struct kd_orbit_drift *worst[KD_ORBIT_LANES];
-    /* Called after a step in which w has stopped growing, with the path up to date; may be NULL. */
+    /* Function that is called after a step in which w has stopped growing, with the path up to date; may be NULL. */
     void (*periastron)(void *user, int lane);
     void *user;
 };
 
-/* True if a path can be one of the lanes: bound, with Yoshida's method and L != 0. */
+/* True if a path can be one of the lanes: it is bound, uses Yoshida's method, and has L != 0. */
 bool kd_orbit_lanes_take(const struct kd_orbit_path *path);
 
 void kd_orbit_lanes_run(struct kd_orbit_lanes *lanes);

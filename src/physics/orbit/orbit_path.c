@@ -13,8 +13,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. If both ends of the range of w are known, it is computed from the distances to them, so that a circular
- * orbit, whose ends coincide, stays circular for ever. */
+/* Half of W'. If both ends of the range of w are known, it is computed from the distances of w to these ends. So a
+ * circular orbit, whose ends coincide, stays circular for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -30,8 +30,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place. They are the forces without those of the springs, and then the rates of
- * proper time, t and chi. rest: the rounding error of w. */
+/* The derivatives of the rates at a place: first the forces, without those of the springs; then the rates of proper
+ * time, t and chi. rest: rounding error of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -41,7 +41,7 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
     f[KD_PATH_Y] = y * (2 * flat * o->z * y2 + p->stiff);
     f[KD_PATH_PROPER] = far + up;
     double turn = p->twist != 0 ? p->twist * (1 - y2) / (1 - p->nu * y2) : 0;
-    if (p->ingoing) { /* (P - sqrt R)/Delta = (r^2 + K)/(P + sqrt R) with P = E(r^2 + a^2) - aL */
+    if (p->ingoing) { /* (P - sqrt R)/Delta, computed as (r^2 + K)/(P + sqrt R), with P = E(r^2 + a^2) - aL */
         double speed = sqrt(fmax(kd_orbit_radial(o, w), 0)), past = o->energy * (1 + a2w2) - a * o->momentum * w2;
         double slow = (1 + o->k * w2) / (past + speed);
         f[KD_PATH_T] = (1 + a2w2) * far * slow + a * o->momentum - a * a * o->energy + o->energy * up;
@@ -54,13 +54,14 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         o->energy * (far + 2 * w * far + o->four + up) + (o->near * w - 4 * a2w2 * o->energy - o->nearer * w2) * hole;
 }
 
-/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits, from his three equations by Newton's method. */
+/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits. They were computed from his three equations by
+ * Newton's method. */
 const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932,
                                    -1.177679984178871006946416, 1.31518632068391121888425 };
 
 static int kick_of(int stage) { return stage < 4 ? stage : 6 - stage; }
 
-/* Duration of a drift: half of a leapfrog plus half of the next one. */
+/* Duration of the drift between two stages: half of one leapfrog plus half of the next. */
 static double drift_of(int stage)
 {
     if (stage == 0 || stage == 7)
@@ -68,8 +69,8 @@ static double drift_of(int stage)
     return 0.5 * (kd_orbit_kicks[kick_of(stage)] + kd_orbit_kicks[kick_of(stage - 1)]);
 }
 
-/* The rotation of an oscillator during each drift, as three shears. Shears conserve the area for any rounding of their
- * coefficients, so errors do not accumulate. */
+/* Computes the rotation of an oscillator during each drift, as three shears. Shears conserve the area for any rounding
+ * of their coefficients, so errors do not accumulate. */
 void kd_orbit_set_turns(struct kd_spring *s, double h)
 {
     double omega = sqrt(s->strength);
@@ -80,7 +81,7 @@ void kd_orbit_set_turns(struct kd_spring *s, double h)
     }
 }
 
-/* Moves the path exactly, under the springs alone. */
+/* Moves the path exactly as the springs alone move it, for one drift. */
 static void drift(struct kd_orbit_path *p, int stage)
 {
     for (int i = 0; i < KD_PATH_PLACES; i++) {
@@ -110,8 +111,8 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The total force after a time of `at` * h. The force is taken at the place to which the present rates lead in this
- * time, displaced further by h^2 `sum`. */
+/* The total force at the time `at` * h. The force is taken at the place to which the present rates lead by then,
+ * displaced further by h^2 `sum`. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
@@ -149,12 +150,12 @@ static void albrecht(struct kd_orbit_path *p, double h)
         add(&p->rate[i], h * (7 * (k[0][i] + k[4][i]) + 32 * (k[1][i] + k[3][i]) + 12 * k[2][i]) / 90);
 }
 
-/* Int (r^2 + a^2)/Delta dr and Int a/Delta dr: the difference between ingoing time and azimuth and t, phi. */
+/* Ingoing time minus t, Int (r^2 + a^2)/Delta dr, and ingoing azimuth minus phi, Int a/Delta dr. */
 static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
     double plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus, r = 1 / w;
     double near = log(r - plus), inner = log(r - minus);
-    if (kd_hole_is_close(&o->hole)) { /* the difference of the logarithms by log1p, which keeps its digits */
+    if (kd_hole_is_close(&o->hole)) { /* computes the difference of the logarithms by log1p, which keeps its digits */
         const double apart = log1p(gap / (r - plus)) / gap;
         *t = r + 2 * near - kd_hole_mass(&o->hole, minus) * apart;
         *phi = -o->hole.a * apart;
@@ -164,8 +165,8 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->hole.a * (near - inner) / gap;
 }
 
-/* Switches to ingoing coordinates when the fall is final: when there is no turning point further in, and W is no longer
- * small, so that its root is smooth. */
+/* Changes to ingoing coordinates when the fall is final. This is when there is no turning point further in, and W is no
+ * longer small, so that its root is smooth. */
 static void enter(struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -178,7 +179,7 @@ static void enter(struct kd_orbit_path *p)
     ahead(o, w, &p->entry_t, &p->entry_phi);
 }
 
-/* N - a^2 b u^2, so that y'^2 = (1 - y^2) steep. */
+/* N - a^2 b u^2, which gives y'^2 = (1 - y^2) steep. */
 static double steep(const struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -218,8 +219,8 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
 }
 
 /* Counts the half turns that atan2 does not include. If Q >= 0, the azimuth grows steadily, and atan2 jumps at pi,
- * where y changes sign on its way down. If Q < 0, atan2 jumps back by pi at a turning point next to the equator. If L =
- * 0, the body passes the axis where y turns. */
+ * where y becomes negative. If Q < 0, atan2 jumps back by pi at a turning point next to the equator. If L = 0, the body
+ * passes the axis where y turns. */
 static void count(struct kd_orbit_path *p, double y, double rate, int way)
 {
     double y_now = p->place[KD_PATH_Y].value, rate_now = p->rate[KD_PATH_Y].value;
@@ -278,7 +279,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
         .mass = NAN,
         .binet = a2 == 0 ? radial : NAN,
     };
-    /* mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: both residuals have the weight of their term */
+    /* the residual of mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...; the residuals of w and u have the
+     * weights of their terms */
     if (w * o->hole.outer < 0.99 && sine2 > 0.01)
         d.mass = -(radial / (w * w * kd_hole_delta_w(&o->hole, w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
@@ -291,7 +293,7 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* Kinds of events. Each event is a zero of height(). */
+/* Kinds of events. An event is a zero of height(). */
 enum event { APSIS, RADIUS, TIME };
 
 static double height(const struct kd_orbit_path *p, enum event event, double aim)
@@ -305,7 +307,7 @@ static double height(const struct kd_orbit_path *p, enum event event, double aim
     return isnan(t) ? INFINITY : t - aim;
 }
 
-/* Regula falsi with the Illinois modification, until rounding stops it. */
+/* Finds an event within a step by regula falsi with the Illinois modification, until rounding stops it. */
 static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h, enum event event, double aim)
 {
     struct kd_orbit_path best = moved(path, h);
@@ -313,7 +315,7 @@ static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h,
     for (int i = 0; i < 100 && f_low != f_high; i++) {
         double at = isfinite(f_high) ? high - f_high * (high - low) / (f_high - f_low) : 0.5 * (low + high);
         if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h)) {
-            if (at == low) /* the event is here, possibly at the beginning of the step */
+            if (at == low) /* the event is at `low`, possibly at the beginning of the step */
                 best = low == 0 ? *path : moved(path, low);
             break;
         }
@@ -341,7 +343,7 @@ struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, d
     struct kd_orbit_path end = moved(path, h);
     bool beyond = (height(path, RADIUS, w) < 0) != (height(&end, RADIUS, w) < 0);
     if (!beyond && (path->rate[KD_PATH_W].value < 0) != (end.rate[KD_PATH_W].value < 0))
-        /* if E = 1, infinity is a turning point like others */
+        /* for E = 1, infinity counts as a turning point */
         h = kd_orbit_path_to_apsis(path, h).mino.value - path->mino.value;
     return to_event(path, h, RADIUS, w);
 }

@@ -5,14 +5,14 @@
  *
  *   w'' = W'(w)/2        y'' = -(L^2 + Q + a^2 b) y + 2 a^2 b z y^3
  *
- * two separate oscillators with polynomial forces, those of Binet and Duffing. An orbit in the equatorial plane has a
- * fictitious y. The rates of proper time, t and phi depend on the place alone. They are treated as further momenta.
- * Each method then integrates them to its own order. The azimuth has no pole at the axis: with N = Q/z, cc = |L|/(N -
- * a^2 b), nu = -a^2 b cc^2
+ * These are two separate oscillators with polynomial forces, those of Binet and Duffing. An orbit in the equatorial
+ * plane has a fictitious y. The rates of proper time, t and phi depend on the place alone. They are treated as further
+ * momenta, so that each method integrates them to its own order. The azimuth has no pole at the axis: with N = Q/z, cc
+ * = |L|/(N - a^2 b), nu = -a^2 b cc^2
  *
  *   |L|/(1 - u^2) = d/dlambda atan2(cc y (N - a^2 b u^2), y') - a^2 b cc (1 - y^2)/(1 - nu y^2)
  *
- * (for light in null_polar.h; checked by quadrature, tests/unit/physics_orbit.c). E and L of the orbit are
+ * (null_polar.h has the same for light; tests/unit/physics_orbit.c checks it by quadrature). E and L of the orbit are
  * parameters; L enters no momentum and is conserved exactly.
  *
  *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step. In their drifts y
@@ -39,31 +39,33 @@ struct kd_exact { double value, rest; };
 enum { KD_PATH_W, KD_PATH_Y, KD_PATH_PLACES };
 enum { KD_PATH_PROPER = KD_PATH_PLACES, KD_PATH_T, KD_PATH_CHI, KD_PATH_RATES };
 
-/* The linear part of a force, -strength (q - centre): its motion is exact, and its rotations in the drifts of a step
- * are stored as shears. */
+/* The linear part of a force, -strength (q - centre). Its motion is computed exactly. Its rotations in the drifts of a
+ * step are stored as shears. */
 struct kd_spring {
     double strength, centre;
     struct { double kick, drift; } turn[4];
 };
 
 struct kd_orbit_path {
-    /* not read by the integrator; for callers only */
+    /* for callers only; the integrator does not read it */
     struct kd_orbit orbit;
     enum kd_orbit_method method;
     bool factored, ingoing;
     double g[3];
     struct kd_spring spring[KD_PATH_PLACES];
-    double stiff;                /* rate of y, if its linear force is repulsive */
-    double cc, nu, twist, swing; /* constants of the azimuth; swing: its value at the start */
-    double entry_t, entry_phi;   /* ingoing coordinates minus t and phi where the path changed to ingoing coordinates */
-    struct kd_exact place[KD_PATH_PLACES]; /* w, y */
-    struct kd_exact rate[KD_PATH_RATES];   /* derivatives of w, y; then proper time, t, and the smooth part of phi */
+    double stiff;                /* growth rate of y, if the linear force of y is repulsive */
+    double cc, nu, twist, swing; /* constants of the azimuth; swing: value of the fast part at the start */
+    /* where the path changed to ingoing coordinates: ingoing coordinates minus t and phi */
+    double entry_t, entry_phi;
+    struct kd_exact place[KD_PATH_PLACES]; /* 0: w. 1: y. */
+    /* 0, 1: derivatives of w and y. 2: proper time. 3: t. 4: the smooth part of phi */
+    struct kd_exact rate[KD_PATH_RATES];
     struct kd_exact mino;
     int half_turns;
-    double turn_h; /* the step for which the springs' rotations were computed */
+    double turn_h; /* step for which the springs' rotations were computed */
 };
 
-/* start: from kd_orbit_start or kd_orbit_from_state. */
+/* Begins a path. start: result of kd_orbit_start or kd_orbit_from_state. */
 void kd_orbit_path_init(struct kd_orbit_path *path, const struct kd_orbit *orbit, const struct kd_orbit_state *start,
                         enum kd_orbit_method method);
 void kd_orbit_path_step(struct kd_orbit_path *path, double h);
@@ -77,15 +79,15 @@ struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *path);
 struct kd_orbit_drift { double energy, carter, mass, binet; };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
-/* Moves `path` to the place where its radial velocity vanishes, which must be within a step of h. */
+/* The path moved to the place where its radial velocity vanishes. This place must be within a step of h. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* Moves `path` to the radius 1/w: at the first passage or, after a turning point, at the second. kd_orbit_path_to_time
- * moves it to the time t. The radius or time must be reached within the step. */
+/* kd_orbit_path_to_radius: the path moved to the radius 1/w, at the first passage or, after a turning point, at the
+ * second. kd_orbit_path_to_time: the path moved to the time t. The radius or time must be reached within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 
-/* Shared by the files of this folder: Yoshida's weights w3, w2, w1, w0, and the rotations of a spring in the drifts
- * of a step of h. */
+/* For the files of this folder: Yoshida's weights w3, w2, w1, w0; and the function that computes the rotations of a
+ * spring in the drifts of a step of h. */
 extern const double kd_orbit_kicks[4];
 void kd_orbit_set_turns(struct kd_spring *spring, double h);
 

@@ -5,14 +5,14 @@
 #include <math.h>
 
 /* Schmidt's E, L and Q of an orbit with the turning points r1, r2 and z = cos^2(theta_min) = 1 - x^2 (2002,
- * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, R(r) = 0 reads, in l instead of L,
+ * gr-qc/0202090, B.16 to B.21), regrouped. With L = x l, the equation R(r) = 0 is
  *
  *   f E^2 - 2 g a x E l - h l^2 - d = 0        Q = z (a^2 b + l^2)
  *   d = (r^2 + a^2 z) Delta    f = r^4 + a^2 (r (r + 2) - q^2 + z Delta)    g = 2r - q^2    h = Delta - a^2 + a^2 z
  *
- * which is regular at the pole, x = 0, where his h is not. His determinants of the two turning points vanish as e
- * does; here they are divided by r2 - r1, by divided differences, so that e = 0 is no special case. His sign of the
- * root becomes that of ax. */
+ * This form is regular for a polar orbit, x = 0, where Schmidt's h is not. His determinants of the two turning points
+ * vanish with e. Here they are divided by r2 - r1, by means of divided differences, so that e = 0 needs no special
+ * case. The sign of his root becomes that of ax. */
 struct column { double f, g, h, d; };
 
 static struct column values(const struct kd_hole *hole, const double mass[2], double z, double r)
@@ -22,7 +22,7 @@ static struct column values(const struct kd_hole *hole, const double mass[2], do
                              part + a2 * z, (r * r + a2 * z) * delta };
 }
 
-/* (F(r2) - F(r1)) / (r2 - r1) */
+/* The divided differences (F(r2) - F(r1)) / (r2 - r1), for F = f, g, h and d. */
 static struct column differences(const struct kd_hole *hole, const double mass[2], double z, double r1, double r2)
 {
     double a2 = hole->a * hole->a, one = r1 + r2, two = r1 * r1 + r1 * r2 + r2 * r2, three = one * (r1 * r1 + r2 * r2);
@@ -30,8 +30,8 @@ static struct column differences(const struct kd_hole *hole, const double mass[2
                              three - 2 * two + kd_hole_horizons(hole) * one + a2 * z * (one - 2) };
 }
 
-/* The positive root l of the quadratic at r, for given E and b = 1 - E^2. Instead of d and E^2 it uses f - d = g (r^2 +
- * a^2) and b. */
+/* The positive root l of the quadratic equation at r, for given E and b = 1 - E^2. f - d = g (r^2 + a^2) and b are used
+ * instead of d and E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {
     double half = v->g * ax * energy, rest = v->g * (r * r + a2) - v->f * binding;
@@ -50,9 +50,9 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 }
 
 /* In wide orbits Schmidt's formula for E loses the digits of b, and so does the formula for l. With E^2 = 1 - b,
- * eliminating l^2 from the two equations gives rho b = chi - 2 a x sigma E l with chi from f - d instead of d, where E
- * and l enter a small term only. Next to a parabola this loses digits too. There b follows from W = 0 at the outer
- * turning point, which is almost b = 2w. */
+ * eliminating l^2 from the two equations gives rho b = chi - 2 a x sigma E l, with chi from f - d instead of d. In this
+ * equation E and l occur only in a small term. Next to a parabola it loses digits as well. There b follows from W = 0
+ * at the outer turning point, which is almost b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
     double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x, mass[2];
@@ -60,8 +60,7 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     struct column v = values(&o->hole, mass, z, r2), s = differences(&o->hole, mass, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
-    /* Next to a parabola the last two terms are equal within rounding. The accuracy of E l that remains is sufficient
-     * below. */
+    /* Next to a parabola the last two terms are equal within rounding. E l keeps enough accuracy for its use below. */
     double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
     double root = sqrt(fmax(sigma * inner, 0));
     double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);
@@ -78,7 +77,7 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     }
 }
 
-/* The orbit of a shape, without checking that it exists. */
+/* The constants of the orbit of a shape, without a check that such an orbit exists. */
 static struct kd_orbit of_shape(const struct kd_hole *hole, double p, double e, double x)
 {
     double a = hole->a, l, z = (1 - x) * (1 + x);
@@ -95,7 +94,7 @@ static struct kd_orbit of_shape(const struct kd_hole *hole, double p, double e, 
     return o;
 }
 
-/* True if W > 0 between the turning points and W < 0 just beyond them: r3 < r2. */
+/* True if W > 0 between the turning points and W < 0 just beyond both of them, that is, if r3 < r2. */
 static bool stable(const struct kd_orbit *o)
 {
     double g[3], w = o->w_high;
@@ -109,8 +108,8 @@ double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x)
 {
     if (e == 0 && fabs(x) == 1)
         return kd_kerr_isco(kd_hole_turned(hole, x > 0 ? 1 : -1));
-    /* The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb = 11.66; charge moves it
-     * inwards. */
+    /* The search ends at 12. The largest separatrix is that of a retrograde parabola about an extremal hole, 2 r_mb =
+     * 11.66, and charge moves it inwards. */
     double low = hole->outer, high = 12;
     while (high - low > 2e-16 * high) {
         double p = 0.5 * (low + high);

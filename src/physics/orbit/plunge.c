@@ -5,8 +5,8 @@
 #include <math.h>
 
 /* Without charge u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2), r0 the ISCO's radius (Mummery & Balbus 2022). With charge the
- * radial potential is a quartic of w = 1/r, with the triple root w0 = 1/r0. Its coefficients of w^4 and w^3, -q^2 K and
- * 2K with K = (L - aE)^2, give the fourth root, and that of w, 2, gives K:
+ * radial potential is a quartic of w = 1/r, with the triple root w0 = 1/r0. With K = (L - aE)^2, its coefficients of
+ * w^4 and w^3 are -q^2 K and 2K, which give the fourth root. The coefficient of w is 2, which gives K:
  *
  *   (u^r)^2 = K (w - w0)^3 (2 - 3 q^2 w0 - q^2 w),   K = r0^2/(3 - 4x),   x = q^2/r0
  *           = 2/(3 r0) g^3 (stretch - bend g),       g = r0/r - 1
@@ -42,14 +42,14 @@ struct kd_plunge kd_plunge_of(const struct kd_hole *hole)
     const struct kd_hole_rates rates = kd_hole_rates_of(hole, o.energy, o.momentum);
     o.outer = pole_of(&o, &rates, hole->outer, hole->inner);
     o.inner = pole_of(&o, &rates, hole->inner, hole->outer);
-    /* r^2 u^t d(tau)/dz at the ISCO, where it is that of the circular orbit. */
+    /* r^2 u^t d(tau)/dz at the ISCO, with the u^t of the circular orbit there. */
     double rate = sqrt(6 / (o.isco * o.stretch)) * o.isco * o.isco * kd_kerr_ut(hole, o.isco);
     o.t_rate = -rate;
     o.phi_rate = -rate * kd_kerr_omega(hole, o.isco);
     return o;
 }
 
-/* artanh(p/z)/p down to p/z = 0: without spin and charge the inner pole is at 0. */
+/* artanh(p/z)/p. For p/z -> 0 it is 1/z: without spin and charge the inner pole is at 0. */
 static double artanh_over(double p, double z) { return p > 1e-8 * z ? atanh(p / z) / p : 1 / z; }
 
 struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
@@ -57,7 +57,7 @@ struct kd_plunge_event kd_plunge_at(const struct kd_plunge *o, double r)
     double r0 = o->isco, z = place_of(o, r), scale = sqrt(6 / (r0 * o->stretch)), one = 1 + o->shift, root = sqrt(one);
     double outer = artanh_over(o->outer.pole, z) * r0 / (r0 - o->hole.outer);
     double inner = artanh_over(o->inner.pole, z) * r0 / (r0 - o->hole.inner);
-    /* Integrals of r^2/r0^2 and r/r0 over z, less z. */
+    /* Integrals over z: of r^2/r0^2 - 1, and of r/r0 - 1. */
     double turn = atan(z / root) / root, square = 0.5 * z / (one + z * z) / one - (2 - 0.5 / one) * turn;
     return (struct kd_plunge_event) {
         .t = o->t_rate * z -

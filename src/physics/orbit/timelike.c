@@ -7,7 +7,8 @@
 #include <float.h>
 #include <math.h>
 
-#define NEAR_CIRCLE 1e-3 /* relative range of w; the ends of wider motions are roots of W to 1e-12 */
+/* relative range of w below which a motion is nearly circular; the ends of wider motions are roots of W, to 1e-12 */
+#define NEAR_CIRCLE 1e-3
 
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
 {
@@ -28,8 +29,8 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
            2 * kd_hole_mass_w(&o->hole, w) * o->hole.a * (o->momentum - o->hole.a * o->energy) * w * w * w;
 }
 
-/* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z
- * n = Q, whichever avoids subtraction. */
+/* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z n =
+ * Q. The form without subtraction is used. */
 static void set_polar(struct kd_orbit *o)
 {
     double flat = o->hole.a * o->hole.a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
@@ -59,7 +60,7 @@ void kd_orbit_set_constants(struct kd_orbit *o)
     set_polar(o);
 }
 
-/* The range between roots that contains w, or the outermost one if w is NAN. */
+/* Finds the range between roots that contains w. If w is NAN, finds the outermost range. */
 static bool find_range(struct kd_orbit *o, double w)
 {
     double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / o->hole.outer;
@@ -67,14 +68,16 @@ static bool find_range(struct kd_orbit *o, double w)
     double low = 0, high = horizon;
     for (int i = 0; i <= n; i++) {
         double next = i < n ? roots[i] : horizon;
-        bool touches = i < n && i > 0 && next == low; /* a double root: a circular orbit, or the limit of a whirl */
+        /* true at a double root, which is a circular orbit or the limit of a whirl */
+        bool touches = i < n && i > 0 && next == low;
         double middle = 0.5 * (low + next);
         bool allowed = touches || kd_orbit_radial(o, middle) > 0;
         bool here = isnan(w) || (w >= low * (1 - 1e-14) && w <= next * (1 + 1e-14));
         if (allowed && here) {
             high = next;
             o->w_low = low, o->w_high = high;
-            o->turns_out = low > 0; /* w = 0 is excluded, because infinity is a root for E = 1 */
+            /* true if low is above 0; w = 0 is not a turning point, because infinity is a root for E = 1 */
+            o->turns_out = low > 0;
             o->turns_in = i < n;
             o->circular = touches;
             return true;
@@ -89,14 +92,14 @@ static void set_fate(struct kd_orbit *o)
     if (o->circular) { /* a circular orbit is unstable if W has a minimum there */
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
-        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* tolerance: at a triple root `bend`
-                                                                          * vanishes within rounding */
+        /* the tolerance is needed because, at a triple root, `bend` vanishes within rounding */
+        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND;
         return;
     }
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;
 }
 
-/* True if E(r^2 + a^2) - aL > 0: the particle moves towards the future. */
+/* True if E(r^2 + a^2) - aL > 0, that is, if the particle moves towards the future. */
 static bool to_the_future(const struct kd_orbit *o)
 {
     double w = o->turns_out ? o->w_low : 0.5 * (o->w_low + o->w_high);
@@ -146,14 +149,14 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
         s.w = o->circular || o->turns_in ? o->w_high : o->w_low;
     else
         s.w = fmin(fmax(1 / r, o->w_low), o->w_high);
-    /* W vanishes at a turning point, so that its rounded value close to one is meaningless. */
+    /* W vanishes at a turning point, so close to a turning point its rounded value has no meaning. */
     if (o->turns_out && s.w <= o->w_low * (1 + 1e-14))
         s.w = o->w_low;
     else if (o->turns_in && s.w >= o->w_high * (1 - 1e-14))
         s.w = o->w_high;
     else
         s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
-    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* an unstable orbit starts one ulp of w inside */
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* an unstable orbit starts inside the circle, by one ulp of w */
         double g[3];
         kd_orbit_factor(o, g);
         s.w = nextafter(o->w_high, 1);
@@ -164,7 +167,8 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
 
 double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
 {
-    /* For large w, W falls or is a rising cubic. Therefore W has at most one minimum. */
+    /* Places of the extrema of W. For large w, W either falls or is a rising cubic. Therefore W has at most one
+     * minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
     int n = kd_polynomial_roots(slope, 3, 0, 1 / o->hole.outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
@@ -205,8 +209,8 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
 }
 
 /* Turning points of a motion near a stable circle. There the roots of W nearly merge and are lost in the rounding of W,
- * and W at the start may be rounded below zero. But W at the start is known to be w_rate^2, and as a polynomial of the
- * distance d from the start W keeps its digits. */
+ * and W at the start may be rounded below zero. Instead, W at the start is set to w_rate^2, and W is written as a
+ * polynomial in the distance d from the start, which keeps its digits. */
 static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
@@ -228,9 +232,9 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
     return true;
 }
 
-/* The range of motion for a start that is, within rounding, at a turning point or slightly beyond it. There W is known
- * only to `unknown`, 64 roundings of its largest terms. The range is therefore where W exceeds `unknown`. If W does not
- * exceed it before the next extremum of W, the orbit is a circle: both ends of the range coincide. */
+/* Finds the range of motion for a start that is, within rounding, at a turning point or slightly beyond it. The error
+ * of W there is `unknown`, 64 roundings of its largest terms. The range is therefore where W exceeds `unknown`. If W
+ * does not exceed it before the next extremum of W, the orbit is a circle: both ends of the range coincide. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),

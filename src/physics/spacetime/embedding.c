@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* r = 1 + s cosh(u), s = sqrt(1 - a^2), u = 0 at the horizon: Delta = s^2 sinh^2(u), and dr/sqrt(Delta) = du is
- * regular. */
+/* The variable u in r = 1 + s cosh(u), with s = sqrt(1 - a^2). u is 0 at the horizon, Delta = s^2 sinh^2(u), and
+ * dr/sqrt(Delta) = du is regular. */
 static double rapidity(const struct kd_hole *hole, double r)
 {
     double x = (r - hole->outer) / hole->root;
@@ -31,8 +31,8 @@ static double slope(const struct kd_hole *hole, double r)
     return sqrt(n) / kd_embedding_radius(hole, r);
 }
 
-/* Gauss-Legendre quadrature with 16 points on pieces of u no longer than 1. The nearest zero of dz/du^2 has an
- * imaginary part of more than 1, for which 16 points leave an error of 1e-16. */
+/* Gauss-Legendre quadrature with 16 points on pieces of u no longer than 1. The zero of (dz/du)^2 that is nearest to
+ * the real axis has an imaginary part of more than 1. For such an integrand 16 points leave an error of 1e-16. */
 double kd_embedding_height(const struct kd_hole *hole, double r)
 {
     static const double node[8] = { 0.0950125098376374402, 0.281603550779258913, 0.458016777657227386,

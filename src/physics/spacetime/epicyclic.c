@@ -14,8 +14,8 @@ double kd_epicyclic_vertical(const struct kd_hole *hole, double r)
     return kd_kerr_omega(hole, r) * sqrt(kd_kerr_stiffness_vertical(hole, r)) / r;
 }
 
-/* d(phi)/dt = (L (1 - m/r) + maE/r) / (E (r^2 + a^2 + ma^2/r) - maL/r) in the plane, from the metric, with the mass
- * term m r; the quotient is Omega. m is 2 without charge, and d(m/r)/dr = -2 pull/r^2. */
+/* By the metric, d(phi)/dt = (L (1 - m/r) + maE/r) / (E (r^2 + a^2 + ma^2/r) - maL/r) in the plane, where m r is the
+ * mass term; on the circular orbit this quotient is Omega. m is 2 without charge, and d(m/r)/dr = -2 pull/r^2. */
 double kd_epicyclic_shear(const struct kd_hole *hole, double r)
 {
     const double a = hole->a;

@@ -1,6 +1,6 @@
-/* The hole as a value. It is made once, and passed as a const pointer to every function that computes in its spacetime;
- * the pointer need not outlive the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a| < 1;
- * outside the domain, numbers that are undefined are NaN.
+/* The hole as a value. It is made once, and passed as a const pointer to every function that computes in the hole's
+ * spacetime. The pointer need not outlive the call. Double precision, pure, any thread. Units G = c = M = 1. The domain
+ * is |a| < 1; outside it, numbers that are undefined are NaN.
  *
  * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the hole.
  * The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
@@ -16,26 +16,26 @@
 
 struct kd_hole {
     double a;     /* spin */
-    double q;     /* charge in M */
-    double root;  /* half the distance between the horizons; to an ulp or two, also as |a| -> 1 */
-    double outer; /* r+; to a few ulp up to |a| = 1 - 1e-15 */
+    double q;     /* charge, in units of M */
+    double root;  /* half the distance between the horizons, accurate to an ulp or two, also as |a| -> 1 */
+    double outer; /* r+, accurate to a few ulp up to |a| = 1 - 1e-15 */
     double inner; /* r- */
 };
 
-/* An uncharged hole. root is computed from (1 - a)(1 + a), because 1 - a*a loses all digits as |a| -> 1; inner from
- * r+ r- = a^2, without cancellation at small a. */
+/* An uncharged hole. root is computed from (1 - a)(1 + a), because 1 - a*a loses all digits as |a| -> 1. inner is
+ * computed from r+ r- = a^2, without cancellation at small a. */
 static inline struct kd_hole kd_hole_of(double a)
 {
     double root = sqrt((1 - a) * (1 + a)), outer = 1 + root;
     return (struct kd_hole) { a, 0, root, outer, a * a / outer };
 }
 
-/* A hole of charge q, a^2 + q^2 < 1. 1 - a^2 - q^2 is summed with the rounding errors of its terms (Dekker 1971), so
- * that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons equal those of kd_hole_of bit
- * by bit. */
+/* A hole of charge q, with a^2 + q^2 < 1. The sum 1 - a^2 - q^2 takes the rounding errors of its terms into account
+ * (Dekker 1971), so that root keeps its digits as a^2 + q^2 -> 1. If q^2 is 0 or underflows, the horizons equal those
+ * of kd_hole_of bit by bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
-/* The hole with the given parameters. kd_hole_in: from any struct that has them as members. kd_hole_told is the
+/* The hole with the given parameters. kd_hole_in makes it from any struct that has them as members. kd_hole_told is the
  * inverse. */
 static inline struct kd_hole kd_hole_from(struct kd_hole_given given)
 {
@@ -49,17 +49,17 @@ static inline struct kd_hole_given kd_hole_told(const struct kd_hole *hole)
 #undef KD_TOLD_
 }
 
-/* q^2, on which all effects of the charge depend; for functions that need it alone. */
+/* q^2, for functions that need only the charge. All effects of the charge depend on q^2. */
 static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
 
-/* True if the charge has any effect: its square does not underflow. */
+/* True if the charge has any effect, that is, if its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
-/* True if the horizons are close to each other. If they are not, time and azimuth are computed as a difference of
- * integrals with a pole at either horizon. Their error is 1e-16/(r+ - r-), which is then below 2e-15. */
+/* True if the horizons are close to each other. If they are not close, time and azimuth may be computed as a difference
+ * of two integrals, each with a pole at one horizon. Their error is 1e-16/(r+ - r-), which is then below 2e-15. */
 static inline bool kd_hole_is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
 
-/* r - horizon, for either horizon. If the horizons are close, r - 1 is exact. */
+/* r - horizon, for one of the two horizons. If the horizons are close, it uses r - 1, which is exact. */
 static inline double kd_hole_past(const struct kd_hole *hole, double r, double horizon)
 {
     if (!kd_hole_is_close(hole))
@@ -67,7 +67,7 @@ static inline double kd_hole_past(const struct kd_hole *hole, double r, double h
     return r - 1 - (horizon > 1 ? hole->root : -hole->root);
 }
 
-/* Whether the metric is Kerr's: no parameter besides the spin has any effect. */
+/* True if the metric is Kerr's, that is, if no parameter besides the spin has any effect. */
 static inline bool kd_hole_is_kerr(const struct kd_hole *hole) { return !kd_hole_is_charged(hole); }
 
 /* False for a struct of zeros and for a hole outside the domain. */
@@ -76,25 +76,25 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
     return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
 }
 
-/* KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
+/* Returns KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
-/* The approximations that are reported for parameters of the hole, by index; NULL after the last. */
+/* The approximation that is reported for a parameter of the hole, by index; NULL after the last one. */
 struct kd_hole_sentence { const char *name, *text; };
 const struct kd_hole_sentence *kd_hole_sentence(struct kd_hole_given given, size_t index);
 
-/* The larger of spin and charge, for errors about nearly extremal holes. */
+/* For errors about nearly extremal holes: the larger of spin and charge. */
 struct kd_hole_parameter {
     const char *name, *pointer;
     double value;
 };
 struct kd_hole_parameter kd_hole_largest(const struct kd_hole *hole);
 
-/* A hole from its spin, as an argument of a call: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
- * block. */
+/* A hole from its spin, for use as a function's argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the
+ * enclosing block. */
 #define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })
 
-/* The hole in coordinates in which motion towards +phi (sense 1), or towards -phi (sense -1), becomes motion towards
+/* The hole in turned coordinates, in which motion towards +phi (sense 1) or towards -phi (sense -1) is motion towards
  * +phi. */
 static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, double sense)
 {
@@ -116,33 +116,35 @@ static inline double kd_hole_delta_y(const struct kd_hole *hole, double y)
     return (y - hole->root) * (y + hole->root);
 }
 
-/* Delta at r = 0, the product of the horizons: a^2 + q^2. */
+/* Delta at r = 0, which is the product of the horizons, a^2 + q^2. */
 static inline double kd_hole_horizons(const struct kd_hole *hole) { return hole->a * hole->a + hole->q * hole->q; }
 
-/* Delta - a^2, and Delta/r^2, as sums of their terms. Schmidt's conditions on bound orbits (orbit_shape.c) have
- * determinants in which the terms of Delta cancel against each other. Next to the separatrix at a = 1 - 1e-9 (p = 1.21,
- * e = 0.1) E is then off by 1.6e-13; with Delta as a product it would be off by 6.8e-12. */
+/* kd_hole_delta_sum: Delta - a^2 as a sum of its terms. The next function: Delta/r^2 as such a sum. Schmidt's
+ * conditions on bound orbits (orbit_shape.c) have determinants in which the terms of Delta cancel against each other.
+ * Next to the separatrix at a = 1 - 1e-9 (p = 1.21, e = 0.1) E is then off by 1.6e-13; with Delta as a product it would
+ * be off by 6.8e-12. */
 static inline double kd_hole_delta_sum(const struct kd_hole *hole, double r) { return r * (r - 2) + hole->q * hole->q; }
 static inline double kd_hole_delta_sum_w(const struct kd_hole *hole, double w)
 {
     return 1 - 2 * w + kd_hole_horizons(hole) * w * w;
 }
 
-/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. 1 - w is exact near the horizon of a hole
- * that spins fast, and the two factors keep their accuracy where the horizons almost coincide. The error of the result
- * is the error of w. */
-#define KD_HOLE_DELTA_W(root, w) ((1 - (w) - (root) * (w)) * (1 - (w) + (root) * (w))) /* of vectors too */
+/* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 at w = 1/r, as (1 - w)^2 - (root w)^2. Near the horizon of a hole that spins
+ * fast, 1 - w is exact, and the two factors keep their accuracy where the horizons almost coincide. The result is as
+ * accurate as w. */
+#define KD_HOLE_DELTA_W(root, w) ((1 - (w) - (root) * (w)) * (1 - (w) + (root) * (w))) /* also for vectors */
 static inline double kd_hole_delta_w(const struct kd_hole *hole, double w) { return KD_HOLE_DELTA_W(hole->root, w); }
 
-/* The mass term of the metric, 2r - q^2 (2r without charge); and the mass term over r, at w = 1/r. */
+/* kd_hole_mass: the mass term of the metric, 2r - q^2 (2r without charge). The next function: this term divided by r,
+ * as a function of w = 1/r. */
 static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
 static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
 
-/* The coefficients of kd_hole_mass, c[0] r + c[1], and of kd_hole_mass_w, c[0] + c[1] w. */
+/* Coefficients c of the mass term: kd_hole_mass is c[0] r + c[1], and kd_hole_mass_w is c[0] + c[1] w. */
 static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
 
-/* The rate at which the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. In the plane, where Sigma
- * = r^2, it is given over r: 1 - q^2/r. */
+/* kd_hole_pull: the rate of decrease of the mass term, -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. The next
+ * function: this rate in the plane, where Sigma = r^2, divided by r: 1 - q^2/r. */
 static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u)
 {
     return (r - hole->a * u) * (r + hole->a * u) / r - hole->q * hole->q;
@@ -156,7 +158,7 @@ static inline double kd_hole_area_in_plane(const struct kd_hole *hole, double r)
     return r * (r * (r * r + a2) + 2 * hole->a * hole->a) - a2 * (hole->q * hole->q);
 }
 
-/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4, for light and matter: D = a^2 Q + q^2 K with Carter's
+/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4, for light and for matter. D = a^2 Q + q^2 K, with Carter's
  * constants Q and K = Q + (L - aE)^2 (Carter 1968, Phys. Rev. 174, 1559). */
 static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, double k)
 {
@@ -166,7 +168,8 @@ static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, 
 /* The part of the coefficient of w^2 in w'^2 of a body of unit mass that does not depend on its motion. */
 static inline double kd_hole_own_quadratic(const struct kd_hole *hole) { return -(hole->q * hole->q); }
 
-/* Coefficients in w = 1/r of w'^2 of a body of unit mass. bound: E^2 - 1. moving: a^2 (E^2 - 1) - L^2 - Q. */
+/* Coefficients of w'^2 of a body of unit mass, as a polynomial in w = 1/r. bound: E^2 - 1. moving: a^2 (E^2 - 1) - L^2
+ * - Q. */
 static inline void kd_hole_radial(const struct kd_hole *hole, double bound, double moving, double carter, double k,
                                   double c[5])
 {
@@ -174,7 +177,7 @@ static inline void kd_hole_radial(const struct kd_hole *hole, double bound, doub
     c[2] = moving + kd_hole_own_quadratic(hole);
 }
 
-/* Numbers in the rates of phi and t in Mino time of light and matter:
+/* Numbers in the rates of phi and t per Mino time, for light and for matter:
  *   phi' = a (2E r - drag)/Delta + ...,   t' = E (r^2 + 2r + four) + (near r - nearer - 4 a^2 E)/Delta + ... */
 struct kd_hole_rates { double drag, four, near, nearer; };
 static inline struct kd_hole_rates kd_hole_rates_of(const struct kd_hole *hole, double energy, double momentum)

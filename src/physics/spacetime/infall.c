@@ -11,12 +11,13 @@ bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vant
     return at->hole.a == 0 || at->u == 0 || at->s == 0 || (m->fall_momentum == 0 && kd_observer_energy(m, at) == 1);
 }
 
-/* (Sigma r')^2 = c[4] r^4 + ... + c[0]. If fall_from is finite, this polynomial has been divided by fall_from - r, a
- * factor that vanishes at fall_from. */
+/* A fall: (Sigma r')^2 = c[4] r^4 + ... + c[0]. If fall_from is finite, this polynomial is stored without the factor
+ * fall_from - r, which vanishes at fall_from. */
 struct fall {
     struct kd_hole hole;
-    double c[5], u, low, span, above;       /* above: from the upper end to fall_from */
-    double energy, momentum, swing, carter; /* E; L; L/sin^2; K = Q + (L - a E)^2 */
+    /* c: coefficients. above: distance from the upper end of the range to fall_from */
+    double c[5], u, low, span, above;
+    double energy, momentum, swing, carter; /* E; L; L/sin^2(theta); and K = Q + (L - a E)^2 */
     bool from_rest;
 };
 
@@ -40,22 +41,24 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
         .swing = l == 0 ? 0 : ls / at->s,
         .carter = k,
     };
-    if (f.from_rest) /* in ascending powers; the first ones vanish exactly without spin */
+    /* divides by fall_from - r; coefficients are in ascending powers, and the first ones vanish exactly without
+     * spin */
+    if (f.from_rest)
         for (int i = 0; i < 4; i++)
             f.c[i] = (f.c[i] + (i ? f.c[i - 1] : 0)) / m->fall_from;
     return f;
 }
 
-/* P = E (r^2 + a^2) - a L. */
+/* P = E (r^2 + a^2) - a L at r. */
 static double momentum_inwards(const struct fall *f, double r)
 {
     double a = f->hole.a;
     return f->energy * (r * r + a * a) - a * f->momentum;
 }
 
-/* -Sigma r'. y: distance from the upper end over the span. Between the horizons (Sigma r')^2 = P^2 - Delta (r^2 + K) is
- * a sum of positive terms. Between the horizons the polynomial would lose digits by cancellation if they almost
- * coincide. */
+/* -Sigma r'. y: distance from the upper end of the range, divided by the length of the range. Between the horizons
+ * (Sigma r')^2 = P^2 - Delta (r^2 + K) is a sum of positive terms and is used. The polynomial would lose digits there
+ * by cancellation if the horizons almost coincided. */
 static double speed(const struct fall *f, double r, double y)
 {
     double speed2 = 0, delta = kd_hole_delta(&f->hole, r), p = momentum_inwards(f, r);
@@ -88,8 +91,8 @@ static double ingoing(const struct fall *f, double r, double speed)
     return p > 0 ? (r * r + f->carter) / (p + speed) : (p - speed) / kd_hole_delta(&f->hole, r);
 }
 
-/* Sigma dphi/dtau in ingoing Kerr-Schild coordinates, phi + integral of a/Delta dr (Carter 1968 for
- * Boyer-Lindquist's phi). */
+/* Sigma dphi/dtau, where phi is that of ingoing Kerr-Schild coordinates: Boyer-Lindquist phi + integral of a/Delta dr
+ * (Carter 1968). */
 static double turning(double x, double y, const void *user)
 {
     const struct fall *f = user;
@@ -97,7 +100,7 @@ static double turning(double x, double y, const void *user)
     return f->span * (f->swing - f->hole.a * f->energy + f->hole.a * ingoing(f, r, v)) / v;
 }
 
-/* Sigma dt/dtau of those coordinates, t + integral of (2r - q^2)/Delta dr. */
+/* Sigma dt/dtau, where t is that of the same coordinates: Boyer-Lindquist t + integral of (2r - q^2)/Delta dr. */
 static double ageing(double x, double y, const void *user)
 {
     const struct fall *f = user;
@@ -105,7 +108,7 @@ static double ageing(double x, double y, const void *user)
     return f->span * (a * (f->momentum - a * f->energy * s2) + (r * r + a * a) * ingoing(f, r, v) + v) / v;
 }
 
-/* The integral of (2r - q^2)/Delta up to a constant; outside the horizon. */
+/* The integral of (2r - q^2)/Delta over r, up to a constant, for r outside the horizon. */
 static double delay(const struct kd_hole *hole, double r)
 {
     const double outer = hole->outer, inner = hole->inner;

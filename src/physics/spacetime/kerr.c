@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* (1 - a)(1 + a): 1 - a*a loses all digits as |a| -> 1. */
+/* (1 - a)(1 + a), because 1 - a*a loses all digits as |a| -> 1. */
 static double one_minus_a2(double a) { return (1 - a) * (1 + a); }
 
 double kd_kerr_twist(const struct kd_hole *hole, double r)
@@ -15,7 +15,7 @@ double kd_kerr_twist(const struct kd_hole *hole, double r)
 
 double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta)
 {
-    if (kd_hole_is_charged(hole)) /* 1 - q^2 - a^2 cos^2 = root^2 + a^2 sin^2 */
+    if (kd_hole_is_charged(hole)) /* uses 1 - q^2 - a^2 cos^2 = root^2 + a^2 sin^2 */
         return 1 + sqrt(hole->root * hole->root + hole->a * hole->a * (1 - cos_theta) * (1 + cos_theta));
     return 1 + sqrt(one_minus_a2(hole->a * cos_theta));
 }
@@ -46,7 +46,8 @@ static double orbit_is_stable(const void *hole, double y)
     return kd_kerr_ring_excess(hole, &o);
 }
 
-/* Without charge these orbits are at r < 4.01 and r < 9.01, and charge moves them inwards. */
+/* Places of these orbits, by a search. Without charge the orbits are at r < 4.01 and r < 9.01, and charge moves them
+ * inwards. */
 double kd_kerr_ring_of_light(const struct kd_hole *hole) { return kd_root(light_circles, hole, hole->root, 3.01); }
 
 double kd_kerr_ring_innermost(const struct kd_hole *hole)
@@ -61,7 +62,7 @@ double kd_kerr_isco(const struct kd_hole *hole)
     const double a = hole->a;
     if (kd_hole_is_charged(hole))
         return 1 + kd_kerr_ring_innermost(hole);
-    if (a == 0) /* rounding of the root of 6 would make its square smaller */
+    if (a == 0) /* sqrt(6) would be rounded, and its square would be less than 6 */
         return 6;
     double z1 = 1 + cbrt(one_minus_a2(a)) * (cbrt(1 + a) + cbrt(1 - a));
     double z2 = sqrt(3 * a * a + z1 * z1);
@@ -76,7 +77,7 @@ double kd_kerr_isco(const struct kd_hole *hole)
             x -= (((x * x - 6) * x + 8 * a) * x - 3 * a * a) / ((4 * x * x - 12) * x + 8 * a);
         r = x * x;
     }
-    return fabs(a) <= 1 ? r : NAN; /* cube roots are defined outside the domain too */
+    return fabs(a) <= 1 ? r : NAN; /* NaN outside the domain, where the cube roots would still give a number */
 }
 
 double kd_kerr_photon_orbit(const struct kd_hole *hole)
@@ -100,7 +101,7 @@ double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole)
     return kd_kerr_photon_orbit(kd_hole_turned(hole, hole->a > 0 ? -1 : 1));
 }
 
-/* r P (E - 1) */
+/* A function of y = r - 1 with the sign of E - 1: r P (E - 1). */
 static double energy_above_rest(const void *user, double y)
 {
     const struct kd_hole *hole = user;
@@ -111,7 +112,8 @@ static double energy_above_rest(const void *user, double y)
 double kd_kerr_marginally_bound(const struct kd_hole *hole)
 {
     const double a = hole->a;
-    if (kd_hole_is_charged(hole)) /* E falls from infinity on the photon orbit to less than 1 at the ISCO */
+    /* E decreases from infinity on the photon orbit to less than 1 at the ISCO, which brackets the root */
+    if (kd_hole_is_charged(hole))
         return 1 + kd_root(energy_above_rest, hole, kd_kerr_ring_of_light(hole), kd_kerr_ring_innermost(hole));
     double s = 1 + sqrt(1 - a);
     return a >= -1 ? s * s : NAN;
@@ -127,19 +129,19 @@ double kd_kerr_omega(const struct kd_hole *hole, double r)
 }
 
 /* Near a = 1 prograde orbits are close to r = 1, where 1 - 3/r + 2a/r^(3/2) and the numerators of E and L cancel and
- * lose half their digits. As polynomials in x = sqrt(r) they are regrouped about x = 1, in terms of x - 1 and 1 - a,
- * which have full precision. */
-struct circle { double x, d, e, norm; }; /* sqrt(r), x - 1, 1 - a, sqrt(x^3 (x^3 - 3x + 2a)) */
+ * lose half their digits. These expressions are polynomials in x = sqrt(r). They are regrouped about x = 1, in terms of
+ * x - 1 and 1 - a, which have full precision. */
+struct circle { double x, d, e, norm; }; /* sqrt(r); x - 1; 1 - a; sqrt(x^3 (x^3 - 3x + 2a)) */
 
 static struct circle circle_of(double a, double r)
 {
     struct circle o = { .x = sqrt(r), .e = 1 - a };
     o.d = (r - 1) / (o.x + 1);
-    o.norm = sqrt(r * o.x * (o.d * o.d * (o.x + 2) - 2 * o.e)); /* vanishes at the photon orbit */
+    o.norm = sqrt(r * o.x * (o.d * o.d * (o.x + 2) - 2 * o.e)); /* this root vanishes at the photon orbit */
     return o;
 }
 
-/* (x^3 - 2x + a) / sqrt(x^3 (x^3 - 3x + 2a)) */
+/* E = (x^3 - 2x + a) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_energy(const struct kd_hole *hole, double r)
 {
     if (kd_hole_is_charged(hole)) {
@@ -150,7 +152,7 @@ double kd_kerr_energy(const struct kd_hole *hole, double r)
     return (o.d * (r + o.x - 1) - o.e) / o.norm;
 }
 
-/* (x^4 - 2ax + a^2) / sqrt(x^3 (x^3 - 3x + 2a)) */
+/* L = (x^4 - 2ax + a^2) / sqrt(x^3 (x^3 - 3x + 2a)) */
 double kd_kerr_momentum(const struct kd_hole *hole, double r)
 {
     if (kd_hole_is_charged(hole)) {
@@ -172,11 +174,12 @@ double kd_kerr_ut(const struct kd_hole *hole, double r)
     return (r * o.x + a) / o.norm;
 }
 
-/* Without charge x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the ISCO. For a = 1 the root is
- * triple, at x = 1. Written in d = x - 1 and e = 1 - a, it has no avoidable cancellation there. */
+/* The radial stiffness. Without charge it is x^4 - 6x^2 + 8ax - 3a^2 with x = sqrt(r), the quartic whose root is the
+ * ISCO. For a = 1 the root is triple, at x = 1. Written in d = x - 1 and e = 1 - a, the quartic has no avoidable
+ * cancellation there. */
 double kd_kerr_stiffness_radial(const struct kd_hole *hole, double r)
 {
-    if (r == kd_kerr_isco(hole)) /* exactly 0 instead of a rounding error */
+    if (r == kd_kerr_isco(hole)) /* returns exactly 0 at the ISCO, instead of a rounding error */
         return 0;
     if (kd_hole_is_charged(hole)) {
         const struct kd_kerr_ring o = ring_of(hole, r);
@@ -186,7 +189,7 @@ double kd_kerr_stiffness_radial(const struct kd_hole *hole, double r)
     return d * d * d * (d + 4) - e * (2 + 8 * d + 3 * e);
 }
 
-/* x^4 - 4ax + 3a^2, whose root at a = x = 1 is double. */
+/* The vertical stiffness. Without charge it is x^4 - 4ax + 3a^2, which has a double root at a = x = 1. */
 double kd_kerr_stiffness_vertical(const struct kd_hole *hole, double r)
 {
     if (kd_hole_is_charged(hole)) {
@@ -205,7 +208,7 @@ double kd_kerr_weak_bending(const struct kd_hole *hole, double b)
 
 double kd_kerr_weak_advance(const struct kd_hole *hole, double p) { return (6 - hole->q * hole->q) * M_PI / p; }
 
-/* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], so that 1 - E needs no subtraction. */
+/* At the ISCO E^2 = 1 - 2/(3 r) [BPT 2.12 with 2.21], which gives 1 - E without a subtraction. */
 double kd_kerr_efficiency(const struct kd_hole *hole)
 {
     if (kd_hole_is_charged(hole))
@@ -227,7 +230,7 @@ double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_t
     return sqrt(delta) * sigma / ((w * w - a * a * delta * sin_theta * sin_theta) * sin_theta);
 }
 
-/* -(3 r^2/2 - 2 q^2 r)/(s (r^2 + a s)^2), s^2 = r - q^2. */
+/* dOmega/dr = -(3 r^2/2 - 2 q^2 r)/(s (r^2 + a s)^2), with s^2 = r - q^2. */
 double kd_kerr_shear(const struct kd_hole *hole, double r)
 {
     const double q2 = hole->q * hole->q, s = sqrt(r - q2), under = r * r + hole->a * s;

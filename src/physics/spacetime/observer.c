@@ -9,7 +9,7 @@
 
 static double delta_of(const struct kd_vantage *at) { return kd_hole_delta(&at->hole, at->r); }
 
-/* g_phiphi = big sin^2 / sigma. */
+/* Sigma, Delta and B, with which g_phiphi = B sin^2(theta)/Sigma. */
 struct shape { double sigma, delta, big; };
 
 static struct shape shape_of(const struct kd_vantage *at)
@@ -18,7 +18,7 @@ static struct shape shape_of(const struct kd_vantage *at)
     return (struct shape) { r * r + a * a * at->u * at->u, delta, w2 * w2 - a * a * delta * at->s * at->s };
 }
 
-/* Bardeen, Press & Teukolsky 1972, ApJ 178, 347, section III. */
+/* Frame of an observer of zero angular momentum (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, section III). */
 static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
     (void)motion;
@@ -33,7 +33,8 @@ static struct kd_tetrad frame_zamo(const struct kd_observer_motion *motion, cons
     };
 }
 
-/* The velocity is along the Killing vector d_t, and e_phi lies in the plane of d_t and d_phi: from g_tt and g_tphi. */
+/* Frame of a static observer. The velocity is along the Killing vector d_t, and e_phi lies in the plane of d_t and
+ * d_phi. Both follow from g_tt and g_tphi. */
 static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, const struct kd_vantage *at)
 {
     (void)motion;
@@ -49,7 +50,8 @@ static struct kd_tetrad frame_static(const struct kd_observer_motion *motion, co
     };
 }
 
-/* Angular velocity at constant radius, sense = +-1, at the highest latitude: r'' = 0 where r' = theta' = 0, that is
+/* Angular velocity of an orbit at constant radius, at its highest latitude, for the sense +1 or -1. The condition is
+ * r'' = 0 where r' = theta' = 0, that is
  *   d_r g_tt + 2 Omega d_r g_tphi + Omega^2 d_r g_phiphi = 0,   which is   Omega sin = +-G/(1 +- a sin G),   G^2 =
  *     (r^2 - q^2 r - a^2 cos^2)/(r Sigma^2).
  * In Mino time r'' depends on r alone, so that r is constant. In the equatorial plane Omega = +-1/(r^2/s +- a), s^2 = r
@@ -62,7 +64,7 @@ static double circling(const struct kd_hole *hole, double r, double u, double s,
     return sense * g / (1 + sense * a * s * g) - s * kd_kerr_dragging(hole, r, u);
 }
 
-/* Frame that moves along e_phi, relative to the observer of zero angular momentum, at sqrt(g_phiphi) (Omega -
+/* Frame that moves along e_phi relative to the observer of zero angular momentum, at the speed sqrt(g_phiphi) (Omega -
  * omega)/lapse. */
 static struct kd_tetrad circular(const struct kd_vantage *at, int sense)
 {
@@ -85,10 +87,10 @@ static struct kd_tetrad frame_retrograde(const struct kd_observer_motion *motion
     return circular(at, -1);
 }
 
-/* Rain, from rest at infinity without angular momentum: E = 1, L = 0, theta constant, Sigma r' = -sqrt((2r - q^2)
- * (r^2 + a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41, 2579). e_phi is that of zero
- * angular momentum; e_r completes the frame. All of it is regular at the horizon: (2r - q^2) (r^2 + a^2) = B - Sigma
- * Delta, and 2r > q^2 down to the inner horizon. */
+/* Frame of rain, which falls from rest at infinity without angular momentum. It has E = 1, L = 0, constant theta, and
+ * Sigma r' = -sqrt((2r - q^2) (r^2 + a^2)) (Doran 2000, Phys. Rev. D 61, 067503; Natario 2009, Gen. Rel. Grav. 41,
+ * 2579). e_phi is that of the frame of zero angular momentum, and e_r completes the frame. The frame is regular at the
+ * horizon, because (2r - q^2) (r^2 + a^2) = B - Sigma Delta, and 2r > q^2 down to the inner horizon. */
 static struct kd_tetrad rain(const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -103,14 +105,14 @@ static struct kd_tetrad rain(const struct kd_vantage *at)
     };
 }
 
-/* L over the circumference radius: momentum per mass along e_phi. 0 on the axis. */
+/* L divided by the radius of the circle's circumference, which is the momentum per mass along e_phi; 0 on the axis. */
 static double swing(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
     return momentum == 0 ? 0 : momentum / (sqrt(k.big / k.sigma) * at->s);
 }
 
-/* E of a body with this angular momentum that has no other motion here. */
+/* E of a body that has this angular momentum and no other motion at this place. */
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -125,8 +127,8 @@ double kd_observer_energy(const struct kd_observer_motion *m, const struct kd_va
     return isfinite(m->fall_energy) ? m->fall_energy : isfinite(from.r) ? rest_energy(m->fall_momentum, &from) : 1;
 }
 
-/* With E' = E - omega L and constant latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Components x in
- * the rain frame:
+/* With E' = E - omega L and constant latitude, (Sigma r')^2 = B E'^2 - Sigma Delta (1 + x_phi^2). Frame of infall. The
+ * components x in the rain frame follow from
  *   x_t - x_r = (sqrt(B) E' - Sigma r')/(sqrt(B) + sqrt((2r - q^2) (r^2 + a^2))),   (x_t - x_r)(x_t + x_r) = 1 +
  * x_phi^2, none of which vanishes at the horizon. */
 static struct kd_tetrad frame_infall(const struct kd_observer_motion *m, const struct kd_vantage *at)
@@ -158,7 +160,8 @@ struct round {
     int sense;
 };
 
-/* Lapse minus coordinate speed; negative where a circular orbit would be faster than light. */
+/* Lapse minus the coordinate speed of a circular orbit, which is negative where the orbit would be faster than light.
+ */
 static double slower_than_light(const void *user, double r)
 {
     const struct round *o = user;
@@ -200,8 +203,8 @@ struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer)
     return (struct kd_observer_motion) { .observer = observer, .fall_from = INFINITY, .fall_energy = INFINITY };
 }
 
-/* True if r' vanishes between here and the radius of release: w'^2 of a body, in w = 1/r (docs/physics/geodesics.md,
- * mu = 1). */
+/* True if r' vanishes between this place and the radius of release. It uses w'^2 of a body, in w = 1/r
+ * (docs/physics/geodesics.md with mu = 1). */
 static bool turns_on_its_way(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double a = at->hole.a, e = kd_observer_energy(m, at), l = m->fall_momentum, bound = (e - 1) * (e + 1);
@@ -220,7 +223,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     *bound = at->r;
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
-    struct kd_vantage here = *at; /* within the horizon, every body that came through it falls */
+    struct kd_vantage here = *at; /* within the horizon, every body falls that came through the horizon */
     here.r = fmax(at->r, at->hole.outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))

@@ -1,8 +1,8 @@
-/* Table of observers at a finite radius: their names, where they exist, and the frames in which they measure. Users:
- * camera.observer of a scene, /v1/physics, and the frame of an orbit's velocity.
+/* Table of observers at a finite radius: their names, the places where they exist, and the frames in which they
+ * measure. It is used for camera.observer of a scene, for /v1/physics, and for the frame of an orbit's velocity.
  *
- * To add one: a row here, and the function of its frame, frame_WORD in observer.c. Words, enumerators, help, rules
- * and error messages are generated. Double precision, pure functions, any thread. */
+ * To add an observer, add a row here, and the function of its frame, frame_WORD, in observer.c. Words, enumerators,
+ * help, rules and error messages are generated. Double precision, pure functions, any thread. */
 #ifndef KD_PHYSICS_SPACETIME_OBSERVER_H
 #define KD_PHYSICS_SPACETIME_OBSERVER_H
 
@@ -11,9 +11,9 @@
 
 #include <stdbool.h>
 
-/* X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside): the observer
- * exists at radii larger than its edge. The velocity of the last observer is a parameter, so this observer cannot be
- * the frame in which other velocities are measured. */
+/* A row is X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside). The
+ * observer exists at radii larger than its edge. The velocity of the last observer is a parameter, so this observer
+ * cannot be the frame in which other velocities are measured. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", \
       "outside the ergosphere, r > 1 + sqrt(1 - Q^2 - a^2 cos^2 i)", kd_kerr_ergosphere(hole, u), "the ergosphere", \
@@ -34,10 +34,11 @@
 
 #define KD_OBSERVER_NAME_(NAME, word, ...) KD_OBSERVER_##NAME,
 enum kd_observer { KD_OBSERVERS(KD_OBSERVER_NAME_) KD_OBSERVER_COUNT };
-enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* number of the observers before it, which have no parameters */
+/* number of observers before KD_OBSERVER_VELOCITY, which have no parameters */
+enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY };
 
-/* String constants. WORDS: "static|zamo|...", as in a row of enumerated words. HELP: "; static: at rest ...; zamo:
- * ...". PLACES: where each exists. */
+/* String constants made from the table. WORDS: "static|zamo|...", as in a row of enumerated words. HELP: "; static: at
+ * rest ...; zamo: ...". PLACES: the places where each observer exists. */
 #define KD_OBSERVER_WORD_(NAME, word, ...) "|" #word
 #define KD_OBSERVER_WORDS (&(KD_OBSERVERS(KD_OBSERVER_WORD_))[1])
 #define KD_OBSERVER_FRAME_WORDS (&(KD_OBSERVERS_OF_NO_NUMBERS(KD_OBSERVER_WORD_))[1])
@@ -46,34 +47,38 @@ enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* number of the observers b
 #define KD_OBSERVER_WHERE_(NAME, word, what, where, ...) "; \"" #word "\": " where
 #define KD_OBSERVER_PLACES KD_OBSERVERS(KD_OBSERVER_WHERE_)
 
-/* Sense of a circular orbit: 1 with the disk, -1 against it; 0: not on a circular orbit. */
+/* Sense of an observer on a circular orbit: 1 in the direction of the disk, -1 against it. 0 for all other observers.
+ */
 static inline int kd_observer_sense(enum kd_observer observer)
 {
     return (observer == KD_OBSERVER_KEPLERIAN) - (observer == KD_OBSERVER_RETROGRADE);
 }
-#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* names of the two circular kinds, for messages */
+/* words of the two observers on circular orbits, for messages */
+#define KD_OBSERVER_CIRCULAR "keplerian and retrograde"
 
-/* Motion of an observer. All members but the first are parameters of one kind of observer and ignored for the
+/* Motion of an observer. All members except the first are parameters of one kind of observer, and are ignored for the
  * others. */
 struct kd_observer_motion {
     enum kd_observer observer;
-    /* velocity: along e_r, e_theta, e_phi of the observer of zero angular momentum; magnitude less than 1. */
+    /* for "velocity": components along e_r, e_theta and e_phi of the observer of zero angular momentum; the speed must
+     * be less than 1 */
     double velocity[3];
-    /* infall: the radius from which it falls, at rest there except for its angular momentum; INFINITY allowed. */
+    /* for "infall": the radius from which it falls, at rest there except for its angular momentum; may be INFINITY */
     double fall_from;
-    double fall_energy;   /* infall: E per mass; INFINITY: computed from fall_from */
-    double fall_momentum; /* infall: L per mass */
+    double fall_energy;   /* for "infall": E per mass; INFINITY if it is computed from fall_from */
+    double fall_momentum; /* for "infall": L per mass */
 };
 
 /* Name of the largest component, "velocity_r", "velocity_theta" or "velocity_phi", for a message about an excessive
- * speed. *component gets its value. */
+ * speed. Sets *component to its value. */
 const char *kd_observer_fastest(const double velocity[3], double *component);
 
-/* The motion with default parameters: infall from rest at infinity without angular momentum; velocity 0. */
+/* The motion of an observer with default parameters: infall from rest at infinity without angular momentum, and
+ * velocity 0. */
 struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer);
 
 struct kd_observer_row {
-    const char *word, *edge, *why; /* such as "static", "the ergosphere", "nothing is at rest" */
+    const char *word, *edge, *why; /* texts such as "static", "the ergosphere" and "nothing is at rest" */
     double (*outside)(const struct kd_hole *hole, double u);
     struct kd_tetrad (*tetrad)(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 };
@@ -82,11 +87,11 @@ extern const struct kd_observer_row kd_observers[KD_OBSERVER_COUNT];
 /* True if this kind of observer exists at the place. */
 bool kd_observer_exists(enum kd_observer observer, const struct kd_vantage *at);
 
-/* Checks the parameters of an observer at a place where its kind exists. */
+/* Checks the parameters of an observer. Its kind must exist at the place. */
 enum kd_observer_fault {
     KD_OBSERVER_SOUND,
-    KD_OBSERVER_TOO_FAST,    /* |velocity| >= 1: `bound` is 1 */
-    KD_OBSERVER_FROM_INSIDE, /* fall_from is less than the place's radius, which is `bound` */
+    KD_OBSERVER_TOO_FAST,    /* the speed is 1 or more; `bound` is 1 */
+    KD_OBSERVER_FROM_INSIDE, /* fall_from is less than the radius of the place, which is `bound` */
     /* The body's energy is too low for this place, or the body turns back on its way from fall_from. Its energy must
      * exceed `bound`. */
     KD_OBSERVER_TURNS,
@@ -95,17 +100,18 @@ enum kd_observer_fault {
 enum kd_observer_fault kd_observer_check(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                          double *bound);
 
-/* The observer's frame; it must exist and have no fault. For infall it is regular at the outer horizon and inside.
+/* The observer's frame. The observer must exist there and have no fault. For infall the frame is regular at the outer
+ * horizon and inside.
  *
- * If the observer moves relative to the frame of zero angular momentum, its legs are the legs of that frame, boosted
- * without rotation (kd_tetrad_boosted). */
+ * If the observer moves relative to the frame of zero angular momentum, the frame's legs are those of the frame of zero
+ * angular momentum, boosted without rotation (kd_tetrad_boosted). */
 struct kd_tetrad kd_observer_tetrad(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
-/* E per mass of an infalling observer. */
+/* Energy per mass of an infalling observer. */
 double kd_observer_energy(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
-/* Radius of the photon orbit whose highest latitude is at cos(theta) = u, towards +phi (sense 1) or -phi (-1).
- * Inside it there are no circular orbits with that latitude. */
+/* Radius of the photon orbit whose highest latitude is at cos(theta) = u. sense: 1 towards +phi, -1 towards -phi.
+ * Inside this radius there are no circular orbits with that latitude. */
 double kd_observer_light_orbit(const struct kd_hole *hole, double u, int sense);
 
 /* Writes the words of the observers that exist at the place, in quotes and joined by " or ". */

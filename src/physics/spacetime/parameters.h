@@ -1,8 +1,8 @@
 /* The parameters of a hole, in one list. Members of structs, fields of scenes and requests, rows of tables, FITS
  * keywords, cache keys and members of answers are generated from it (docs/adding-a-metric.md). All are doubles.
  *
- * KD_HOLE_MORE(P, x) calls P(x, name, member, ...) for each parameter besides the spin. Its default is 0, with which
- * the hole is Kerr's:
+ * KD_HOLE_MORE(P, x) calls P(x, name, member, ...) for each parameter besides the spin. The default of each is 0, with
+ * which the hole is Kerr's. The arguments are
  *     name         of the field, and of the members of structs that have it
  *     member       of struct kd_hole (hole.h)
  *     least, most  in a scene; shown: the most that the page's control reaches
@@ -24,7 +24,7 @@
       "hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are " \
       "neutral, and the charge affects them only through space-time")
 
-/* Uses of the list. KD_HOLE_MEMBERS declares all parameters, the spin first. */
+/* Lists made from it. KD_HOLE_MEMBERS declares all parameters as members, the spin first. */
 #define KD_HOLE_MEMBER_(x, name, ...) double name;
 #define KD_HOLE_MORE_MEMBERS KD_HOLE_MORE(KD_HOLE_MEMBER_, )
 #define KD_HOLE_MEMBERS \
@@ -32,17 +32,17 @@
     KD_HOLE_MORE_MEMBERS
 #define KD_HOLE_ONE_(x, name, ...) +1
 enum { KD_HOLE_MORE_COUNT = 0 KD_HOLE_MORE(KD_HOLE_ONE_, ) };
-/* The names, for a sentence after "spin". */
+/* Names of the parameters, to follow "spin" in a sentence. */
 #define KD_HOLE_NAME_(x, name, ...) ", " #name
 #define KD_HOLE_MORE_NAMES KD_HOLE_MORE(KD_HOLE_NAME_, )
 
-/* Initialisers of the parameters: copied from another struct that has them, or all set to one value. */
+/* Initialisers of the parameters: copies from another struct that has them, or one value for all. */
 #define KD_HOLE_TAKE_(from, name, ...) , .name = (from)->name
 #define KD_HOLE_FROM(from) .spin = (from)->spin KD_HOLE_MORE(KD_HOLE_TAKE_, from)
 #define KD_HOLE_IS_(value, name, ...) , .name = value
 #define KD_HOLE_ALL(value) .spin = value KD_HOLE_MORE(KD_HOLE_IS_, value)
 
-/* The parameters of a hole as they were given. kd_hole_given(from): those of any struct that has them. */
+/* The parameters of a hole as they were given. kd_hole_given(from) takes them from any struct that has them. */
 struct kd_hole_given { KD_HOLE_MEMBERS };
 #define kd_hole_given(from) ((struct kd_hole_given) { KD_HOLE_FROM(from) })
 
@@ -55,7 +55,7 @@ struct kd_hole_given { KD_HOLE_MEMBERS };
         KD_HOLE_MORE(KD_HOLE_SET_, to) \
     } while (0)
 
-/* Whether any parameter besides the spin is given. */
+/* True if any parameter besides the spin is given. */
 #define KD_HOLE_OR_(given, name, ...) || (given).name != 0
 static inline bool kd_hole_has_more(struct kd_hole_given given) { return false KD_HOLE_MORE(KD_HOLE_OR_, given); }
 

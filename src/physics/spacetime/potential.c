@@ -13,7 +13,7 @@ double kd_potential(const struct kd_hole *hole, double l, double mu2, double r)
 
 static const struct kd_potential_extrema none = { NAN, NAN, NAN, NAN };
 
-/* V(a, L) = V(-a, -L): orbits that turn towards -phi are those of the mirrored hole. */
+/* The extrema for light or matter. Because V(a, L) = V(-a, -L), orbits towards -phi are those of the mirrored hole. */
 struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, double l)
 {
     struct kd_potential_extrema e = none;
@@ -25,8 +25,8 @@ struct kd_potential_extrema kd_potential_of_light(const struct kd_hole *hole, do
     return e;
 }
 
-/* From the photon orbit to the ISCO, L of circular orbits falls from infinity, and it rises beyond. The function
- * bisects, to the last bit, between a radius where L exceeds l and one where it does not. */
+/* L of circular orbits decreases from infinity on the photon orbit to its minimum at the ISCO, and increases beyond.
+ * The function bisects, to the last bit, between a radius where L exceeds l and one where it does not. */
 static double circle_of_momentum(const struct kd_hole *hole, double l, double above, double below)
 {
     for (;;) {
@@ -50,7 +50,8 @@ struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, d
     double isco = kd_kerr_isco(hole), least = kd_kerr_momentum(hole, isco);
     if (!(l >= least))
         return e;
-    /* Far out L = sqrt(r): at (L + 3)^2 + 16 it exceeds l, even for a = -1. */
+    /* The bracket of r_min ends at (L + 3)^2 + 16, where the L of the circular orbit, sqrt(r) far out, exceeds l even
+     * for a = -1. */
     e.r_max = circle_of_momentum(hole, l, kd_kerr_photon_orbit(hole), isco);
     e.r_min = circle_of_momentum(hole, l, (l + 3) * (l + 3) + 16, isco);
     /* Uses V instead of the E of the circular orbit, because E is steep near the photon orbit, where V is flat. */

@@ -1,15 +1,17 @@
-/* Converts M to metres, seconds and angles on the sky, for real holes. Double precision, pure, any thread. Masses in
- * solar masses (IAU 2015 nominal), distances in parsecs; physics/math/constants.h. */
+/* Converts M to metres, seconds and angles on the sky, for real holes. Double precision, pure, any thread. Masses are
+ * in solar masses (IAU 2015 nominal), distances in parsecs. Constants are those of physics/math/constants.h. */
 #ifndef KD_PHYSICS_SPACETIME_SCALE_H
 #define KD_PHYSICS_SPACETIME_SCALE_H
 
-/* The length M = G m/c^2 in metres, the time M = G m/c^3 in seconds, and M on the sky in microarcseconds. */
+/* Size of M, in this order: the length M = G m/c^2 in metres, the time M = G m/c^3 in seconds, and the angle of M on
+ * the sky in microarcseconds. */
 double kd_scale_metres(double mass_msun);
 double kd_scale_seconds(double mass_msun);
 double kd_scale_microarcseconds(double mass_msun, double distance_pc);
 
-/* Proper time from the horizon to the singularity for a = 0, in M. From rest at infinity: 4/3, the integral of
- * dr/sqrt(2/r) from 0 to 2. The maximum: pi, from rest at the horizon (Misner, Thorne & Wheeler 1973, ch. 31). */
+/* Proper time from the horizon to the singularity for a = 0, in M. KD_SCALE_FALL: for a fall from rest at infinity,
+ * 4/3, which is the integral of dr/sqrt(2/r) from 0 to 2. The other: the maximum, pi, for a fall from rest at the
+ * horizon (Misner, Thorne & Wheeler 1973, ch. 31). */
 #define KD_SCALE_FALL (4. / 3)
 #define KD_SCALE_FALL_LONGEST M_PI
 
@@ -23,7 +25,7 @@ struct kd_scale_hole {
     double mass_msun, distance_pc, ring_uas, ring_error_uas;
 };
 extern const struct kd_scale_hole kd_scale_holes[];
-/* Their masses and distances as tokens: the presets write them as text (scene/presets.c). */
+/* Masses and distances of these holes as tokens, because the presets write them as text (scene/presets.c). */
 #define KD_SCALE_M87_MSUN 6.5e9
 #define KD_SCALE_M87_PC 16.8e6
 #define KD_SCALE_SGRA_MSUN 4.297e6

@@ -41,13 +41,15 @@ static void swap(double *a, double *b)
     }
 }
 
-/* Scale of a row, its largest entry. The unknowns are pure numbers, so rows are compared relative to it. */
+/* Largest entry of a row in magnitude, the scale of the row. The unknowns are pure numbers, so rows are compared
+ * relative to their scales. */
 static double size(const double row[5])
 {
     return fmax(fmax(fabs(row[0]), fabs(row[1])), fmax(fabs(row[2]), fabs(row[3])));
 }
 
-/* Gaussian elimination with scaled partial pivoting. Components that the frame does not mix are exact. */
+/* Solves for the components by Gaussian elimination with scaled partial pivoting. Components that the frame does not
+ * mix are exact. */
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4])
 {
     const struct kd_covector *t = &frame->t, *r = &frame->r, *h = &frame->theta, *f = &frame->phi;
@@ -83,7 +85,7 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame)
            frame->theta.momentum == 0 && frame->theta.radial == 0;
 }
 
-/* Applies the inverse of the boost that made the frame. */
+/* Converts a direction from the rain frame, by the inverse of the boost that made the frame. */
 struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double energy, const double x[4])
 {
     const double *v = frame->past_rain, along = v[1] * x[1] + v[2] * x[2] + v[3] * x[3], t = v[0] * x[0] - along;
@@ -93,8 +95,8 @@ struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double en
     return (struct kd_look) { -y[3] / t, y[2] / t, y[1] / t, energy / t };
 }
 
-/* In the rain frame, with B and F of observer.c, x_t - x_r = (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F), and the
- * norm gives x_t + x_r. */
+/* In the rain frame, with B and F of observer.c, x_t - x_r is (sqrt(B) (E - omega L) - p^r)/(sqrt(B) + F). The norm of
+ * the photon then gives x_t + x_r. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2)
 {
     const double a = frame->at.hole.a, r = frame->at.r, s = frame->at.s,

@@ -17,8 +17,8 @@ bool kd_worldline_is_known(const struct kd_observer_motion *m, const struct kd_v
     }
 }
 
-/* dt/dtau and dphi/dtau at constant radius. An observer of zero angular momentum has E = -p_t = lapse, and u^t =
- * 1/lapse. */
+/* dt/dtau and dphi/dtau of an observer at constant radius. An observer of zero angular momentum has E = -p_t = lapse,
+ * and u^t = 1/lapse. */
 static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at, double *time, double *azimuth)
 {
     const int sense = kd_observer_sense(m->observer);
@@ -28,7 +28,7 @@ static void pace(const struct kd_observer_motion *m, const struct kd_vantage *at
         return;
     }
     const struct kd_tetrad frame = kd_observer_tetrad(m, at);
-    *time = 1 / frame.t.energy; /* static: E = sqrt(-g_tt) = 1/u^t */
+    *time = 1 / frame.t.energy; /* for a static observer E = sqrt(-g_tt) = 1/u^t */
     *azimuth = m->observer == KD_OBSERVER_ZAMO ? kd_kerr_dragging(&at->hole, at->r, at->u) * *time : 0;
 }
 

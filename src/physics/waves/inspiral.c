@@ -24,7 +24,7 @@ double kd_inspiral_power(double eta, double a, double e)
     return bound(eta, a, e) ? 32.0 / 5 * eta * eta / pow(a, 5) * kd_inspiral_enhancement(e) : NAN;
 }
 
-/* Peters' beta, 64/5 m1 m2 (m1 + m2). */
+/* Peters' constant beta, which is 64/5 m1 m2 (m1 + m2). */
 static double beta(double eta) { return 64.0 / 5 * eta; }
 
 double kd_inspiral_axis_rate(double eta, double a, double e)
@@ -52,7 +52,7 @@ double kd_inspiral_axis(double a0, double e0, double e)
     return a0 * pow(e / e0, 12.0 / 19) * one_minus_e2(e0) / one_minus_e2(e) * pow(sum, 870.0 / 2299);
 }
 
-/* Integrand of P 5.14 with e = e0 x, in which the power of e0 cancels that of c0. */
+/* Integrand of P 5.14 in the variable x with e = e0 x. The power of e0 cancels against that of c0. */
 static double slowing(double x, double y, const void *context)
 {
     double e0 = *(const double *)context, ex = e0 * x;
@@ -65,7 +65,7 @@ double kd_inspiral_time(double eta, double a, double e)
     if (!bound(eta, a, e))
         return NAN;
     double circle = pow(a, 4) / (4 * beta(eta));
-    /* the factor a e^(12/19) is not included */
+    /* c0 without the factor a e^(12/19) */
     double c0 = one_minus_e2(e) * pow(1 + 121.0 / 304 * e * e, -870.0 / 2299);
     return 48.0 / 19 * circle * pow(c0, 4) * kd_quadrature(slowing, &e);
 }

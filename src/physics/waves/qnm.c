@@ -7,14 +7,16 @@
 
 enum { S = -2, ITERATIONS = 40 };
 
-/* alpha_k a_{k+1} + beta_k a_k + gamma_k a_{k-1} = 0, alpha = alpha0 + alpha1 k + alpha2 k^2, and so on. */
+/* Coefficients of a recurrence alpha_k a_{k+1} + beta_k a_k + gamma_k a_{k-1} = 0, with alpha_k = alpha[0] + alpha[1] k
+ * + alpha[2] k^2, and so on. */
 struct recurrence { double complex alpha[3], beta[3], gamma[3]; };
 
 static double complex quadratic(const double complex c[3], double k) { return c[0] + k * (c[1] + k * c[2]); }
 
-/* The recurrence's continued fraction, inverted at `row`; it is zero if a minimal solution a_k exists. `terms` terms of
- * the infinite part are kept, starting with `rest` for -a_{K+1}/a_K. In exact arithmetic every row gives the same
- * roots; numerically a root is best resolved from the row with its own index (Leaver 1985, after eq. 14). */
+/* The recurrence's continued fraction, inverted at `row`. It is zero if a minimal solution a_k exists. terms: number of
+ * terms of the infinite part. rest: value of -a_{K+1}/a_K with which these terms begin. In exact arithmetic every row
+ * gives the same roots; numerically a root is best resolved from the row with its own index (Leaver 1985, after eq.
+ * 14). */
 static double complex fraction(const struct recurrence *r, int row, int terms, double complex rest)
 {
     double complex below = rest;
@@ -26,7 +28,7 @@ static double complex fraction(const struct recurrence *r, int row, int terms, d
     return above - quadratic(r->alpha, row) * below;
 }
 
-/* Leaver's eq. 20 at c = a omega, sorted by powers of k. k1 + k2 = max(|m|, 2). */
+/* Leaver's eq. 20 for c = a omega, sorted by powers of k. In it, k1 + k2 = max(|m|, 2). */
 static struct recurrence angular(int m, double complex c, double complex separation)
 {
     double k1 = 0.5 * abs(m - S), k12 = k1 + 0.5 * abs(m + S);
@@ -38,7 +40,7 @@ static struct recurrence angular(int m, double complex c, double complex separat
     };
 }
 
-/* Leaver's eqs. 25 and 26 with M = 1 instead of his 2M = 1: omega for his omega/2, a for his 2a. */
+/* Leaver's eqs. 25 and 26 for M = 1 instead of his 2M = 1: omega stands for his omega/2, and a for his 2a. */
 static struct recurrence radial(int m, double a, double complex omega, double complex separation)
 {
     double b = sqrt((1 - a) * (1 + a));
@@ -58,7 +60,7 @@ static struct recurrence radial(int m, double a, double complex omega, double co
 struct problem {
     int l, m, n;
     double a, tolerance;
-    double complex c, separation; /* a omega; a guess, then the eigenvalue */
+    double complex c, separation; /* a omega; and A_lm, first a guess, then the eigenvalue */
 };
 
 /* The minimal solution of the radial recurrence behaves as a_{k+1}/a_k = 1 + p/sqrt(k) + q/k + ..., with p^2 = -2 i
@@ -69,7 +71,7 @@ static double complex radial_fraction(const struct problem *problem, const struc
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
     double complex p = -csqrt(-4 * I * b * omega);
     double complex c0 = r->alpha[0], c2 = r->gamma[1] + 3, q = 0.5 * (p * p + c2 - c0 - 3.5);
-    /* p and q reduce the number of terms below that for the tolerance alone; at most 1e5 */
+    /* p and q make fewer terms sufficient than the tolerance alone would require; at most 1e5 are used */
     double root = fmin(-0.75 * log(fmin(problem->tolerance, 1e-9)) / (-4 * creal(p)), 316);
     int terms = 50 + (int)(root * root);
     double k = problem->n + terms;
@@ -80,14 +82,14 @@ static double complex angular_at(struct problem *p, double complex separation)
 {
     struct recurrence r = angular(p->m, p->c, separation);
     int first = abs(p->m) > -S ? abs(p->m) : -S;
-    /* The truncated part is of the order of (4c)^k/k!, which is below 1e-16 at this k. */
+    /* The omitted part is of the order of (4c)^k/k!, which is below 1e-16 at this k. */
     return fraction(&r, p->l - first, 24 + (int)(14 * cabs(p->c)), 0);
 }
 
 typedef double complex (*function)(struct problem *p, double complex x);
 
-/* The secant method from x and x + step. The last step is the only estimate of the error. Steps below `settled`
- * continue until they stop shrinking, which happens early near a = 1. */
+/* The secant method from x and x + step. The size of the last step is the only estimate of the error. When steps are
+ * below `settled`, the method continues until they stop shrinking, which happens early near a = 1. */
 static const double settled = 1e-9;
 
 static bool solve(function f, struct problem *p, double complex *x, double complex step)
@@ -157,7 +159,7 @@ static void remember(struct kd_qnm_branch *b)
     b->points += b->points < 3;
 }
 
-/* Extrapolates by the parabola through the last three points, or as many as there are. */
+/* Extrapolates by the parabola through the last three points; with fewer points, by the polynomial through these. */
 static struct kd_qnm extrapolated(const struct kd_qnm_branch *b, double y)
 {
     struct kd_qnm sum = { 0, 0 };
@@ -196,7 +198,7 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole)
         return false;
     /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and curves bend sharply where the undamped modes
      * separate from the damped ones (l = 2, m = 1, n = 1 at a = 0.995). A solution within a hundredth of that distance
-     * from the prediction is the wanted mode and not a neighbour; a tenth would not be safe. Near a = 0 the
+     * from the prediction is the wanted mode and not a neighbouring one; a tenth would not be safe. Near a = 0 the
      * extrapolation has no parabola yet, but there is no close neighbour either. */
     const double apart = 1 / (branch->n + 0.5), target = stretched(a);
     while (branch->a != a) {

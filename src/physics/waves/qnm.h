@@ -10,13 +10,13 @@
  * Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (the first guess at a = 0). From there a mode is
  * followed in spin, so that l and n keep their meaning at a = 0.
  *
- * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's, l(l+1) - 2 at a = 0. A spin a <
- * 0 means the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode turns with the hole. Domain:
- * 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999, where fewer than 1e5 terms suffice. Beyond it the damped and the
- * undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502), and l and n no
- * longer identify them. Relative error of both, as complex numbers, measured against another method
- * (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 for the
- * overtones of l = 4. */
+ * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's separation constant, l(l+1) - 2
+ * at a = 0. A spin a < 0 is that of the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode
+ * rotates with the hole. The domain is 2 <= l <= 4, |m| <= l, 0 <= n <= 3 and |a| <= 0.9999, where fewer than 1e5 terms
+ * suffice. Beyond this spin the damped and the undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013,
+ * Phys. Rev. D 87, 041502), and l and n no longer identify them. Relative error of both, as complex numbers, measured
+ * against another method (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond,
+ * rounding leaves 1e-10 for the overtones of l = 4. */
 #ifndef KD_PHYSICS_WAVES_QNM_H
 #define KD_PHYSICS_WAVES_QNM_H
 
@@ -29,29 +29,31 @@ enum { KD_QNM_L_MIN = 2, KD_QNM_L_MAX = 4, KD_QNM_N_MAX = 3 };
 #define KD_QNM_SPIN_MAX 0.9999
 
 struct kd_qnm {
-    double complex omega;      /* M omega              */
-    double complex separation; /* A_lm, no unit        */
+    double complex omega;      /* omega, in units of 1/M */
+    double complex separation; /* A_lm, which has no unit */
 };
 
-/* A mode followed in spin. Moving to a nearby spin is cheap, 20 to 200 us: use one branch for a whole curve. */
+/* A mode that is followed in spin. Moving to a nearby spin is cheap, 20 to 200 us, so use one branch for a whole curve.
+ */
 struct kd_qnm_branch {
     int l, m, n;
-    double a; /* >= 0; a negative spin is expressed by the sign of m */
+    double a; /* spin, >= 0; the sign of m expresses a negative spin */
     struct kd_qnm at;
-    double step; /* next step in -ln(1 - a) */
+    double step; /* next step in the variable -ln(1 - a) */
     int points;  /* number of stored points for extrapolation */
     double y[3];
     struct kd_qnm past[3];
 };
 
-/* Begins a branch at a = 0. False if (l, m, n) is outside the domain. */
+/* Begins a branch at a = 0. Returns false if (l, m, n) is outside the domain. */
 bool kd_qnm_start(struct kd_qnm_branch *branch, int l, int m, int n);
 
-/* Moves the branch to spin a >= 0. False, with the branch at the last spin reached, if a is outside the domain or
- * the iteration fails. */
+/* Moves the branch to the hole's spin, which must be >= 0. Returns false if the spin is outside the domain or the
+ * iteration fails; the branch is then at the last spin reached. */
 bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole);
 
-/* kd_qnm_start and kd_qnm_move in one call, for a of either sign. On failure returns false, and *mode is NAN. */
+/* Finds a mode by kd_qnm_start and kd_qnm_move, for a spin of either sign. On failure it returns false, and *mode is
+ * NAN. */
 bool kd_qnm_find(int l, int m, int n, const struct kd_hole *hole, struct kd_qnm *mode);
 
 #endif

@@ -8,18 +8,20 @@
 
 #include <complex.h>
 
-/* Q = Re(omega) / (-2 Im(omega)): half the phase, in radians, over which the amplitude falls by the factor e. */
+/* Quality factor Q = Re(omega) / (-2 Im(omega)): half the phase, in radians, over which the amplitude decreases by the
+ * factor e. */
 double kd_ringdown_quality(double complex omega);
 
-/* e^(Im(omega) t) cos(Re(omega) t), t >= 0 from the start, where it is 1. */
+/* e^(Im(omega) t) cos(Re(omega) t) for t >= 0. t counts from the start, where the wave is 1. */
 double kd_ringdown_wave(double complex omega, double t);
 
-/* 2.1 + 11.3 a^3, a commonly used fit for the l = m = 2 fundamental mode; no source could be found. Its error is below
- * 4.1 % only for a < 0.33; its errors are +30 % at 0.5, +104 % at 0.8 and -71 % at 0.999. It is given for
- * comparison. */
+/* 2.1 + 11.3 a^3, a commonly used fit of Q for the fundamental mode l = m = 2, whose source could not be found. Its
+ * error is below 4.1 % only for a < 0.33; its errors are +30 % at 0.5, +104 % at 0.8 and -71 % at 0.999. It is given
+ * for comparison. */
 double kd_ringdown_quality_cubic(const struct kd_hole *hole);
 
-/* Berti, Cardoso & Will 2006, Phys. Rev. D 73, 064030, table VIII, l = m = 2, n = 0, 1, 2; 0 <= a < 1 (else NaN):
+/* Fits of Berti, Cardoso & Will 2006, Phys. Rev. D 73, 064030, table VIII, for l = m = 2, n = 0, 1, 2 and 0 <= a < 1
+ * (otherwise NaN):
  *   Re(omega) = f1 + f2 (1 - a)^f3,   Q = q1 + q2 (1 - a)^q3.
  * Error for a <= 0.99, measured against the modes: Re(omega) 1.9, 1.6, 1.9 %, Q 0.9, 1.7, 2.5 % for n = 0, 1, 2. */
 struct kd_ringdown_fit { double omega_re, quality; };

@@ -32,7 +32,7 @@ double kd_tidal_fallback_rate(struct kd_tidal t, double time)
     return time < first ? 0 : t.mass / (3 * first * x * cbrt(x * x));
 }
 
-/* The hole's mass for which r_t = reach M: M = (R/reach)^(3/2) m^(-1/2). */
+/* The hole's mass M for which r_t is `reach` times M: M = (R/reach)^(3/2) m^(-1/2). */
 static double heaviest(struct kd_tidal t, double reach)
 {
     double x = t.radius / reach;
