@@ -30,7 +30,14 @@ def expand(path):
 
 
 text = "\n".join(expand(source))
-text = re.sub(r"/\*.*?\*/", lambda comment: "\n" * comment[0].count("\n"), text, flags=re.S)
+
+
+def blank(comment):
+    """The line breaks of a comment. In a macro, whose line ends with a backslash, they need one each."""
+    return ("\\\n" if comment[1].endswith("\\") else "\n") * comment[0].count("\n")
+
+
+text = re.sub(r"/\*.*?\*/(?=([^\n]*))", blank, text, flags=re.S)
 text = re.sub(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+e[+-]?\d+)(?![\w.])", r"\1LF", text)
 text = re.sub(r"\bfloat\b", "double", text)
 text = re.sub(r"\bvec([34])\b", r"dvec\1", text)

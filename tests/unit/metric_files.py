@@ -35,7 +35,7 @@ FIELD = re.compile(r'"/?(?:header\.|spacetime[./])?charge(?: is [^"]*)?"')
 # The word "charge" in its other sense: use of a client's allowance.
 OTHERS = ("src/server/http", "src/server/render")
 PAGE = "docs/adding-a-metric.md"
-TOLD = re.compile(r"formulas of (\d+) files.*?named in (\d+) files", re.S)
+TOLD = re.compile(r"formulas of (\d+) files.*?name of the charge is in (\d+) files", re.S)
 
 
 def code(text):
