@@ -158,7 +158,7 @@ class Physics(Browser):
         page = self.open("lang=en&view=physics", "#curves .card:last-child canvas")
         self.card(page, "returning-by-spin")
         answer = self.daemon.get("/v1/physics/returning?spin=0.998&r=isco").json()["values"]
-        self.there(page, f"at spin 0.998 it is {100 * answer['disk_returns']:.1f} %", "#curve-returning-by-spin figure")
+        self.there(page, f"At spin 0.998 it is {100 * answer['disk_returns']:.1f} %", "#curve-returning-by-spin figure")
         rows = [[value(cell) for cell in row] for row in self.cells(page, "returning-by-spin")]
         self.assertEqual((rows[0][0], rows[-1][0], len(rows)), (0, 0.998, 11))
         for told, name in zip(
@@ -324,7 +324,7 @@ class Physics(Browser):
         page.wait_for_selector("#curve-photon-rings canvas")
         page.fill("#in-photon-rings-spin", "0")
         page.keyboard.press("Tab")
-        page.wait_for_selector("#curve-photon-rings >> text=/γ = 3.142, .* 23.1 times thinner/")
+        page.wait_for_selector("#curve-photon-rings >> text=/γ = 3.142 .* 23.1 times thinner/")
 
     def test_plots_are_read_by_keyboard(self):
         page = self.open("lang=en&view=physics", "#curves .card:last-child canvas")
@@ -369,8 +369,8 @@ class Physics(Browser):
             self.assertIn("by the same fit", page.get_attribute(f"#sky-{hole} .sky-stack", "aria-label"))
         page.wait_for_selector("#scale .data:not([hidden]) canvas")
         self.shot(page, "scale", full_page=True)
-        self.assertIn("a ring 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
-        self.assertIn("a ring 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
+        self.assertIn("The measured ring is 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
+        self.assertIn("The measured ring is 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
         # In both views the ring's diameter and its error are drawn to scale, relative to the panel's width, with the
         # same bar.
         drawn = page.evaluate("""() => ['m87', 'sgra'].map(hole => {
