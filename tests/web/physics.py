@@ -370,7 +370,9 @@ class Physics(Browser):
         page.wait_for_selector("#scale .data:not([hidden]) canvas")
         self.shot(page, "scale", full_page=True)
         self.assertIn("The measured ring is 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
-        self.assertIn("The measured ring is 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
+        self.assertIn(
+            "The measured ring is 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label")
+        )
         # In both views the ring's diameter and its error are drawn to scale, relative to the panel's width, with the
         # same bar.
         drawn = page.evaluate("""() => ['m87', 'sgra'].map(hole => {
