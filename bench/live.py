@@ -267,7 +267,7 @@ def make_kernels(server):
 
 
 def compare(programs, rounds=3):
-    """One session and eight on each program, in alternation. Returns the rounds by program and number."""
+    """Measures one session, then eight, with each program in turn. Returns the rounds by program and number of sessions."""
     out, device = {name: {"1": [], "8": []} for name in programs}, None
     for _ in range(rounds):
         for n in (1, 8):

@@ -313,7 +313,7 @@ static void stars_over_pictures(void **state)
 }
 
 /* A missing panorama, or a file that is not a picture, is an error at the field, and has no other effect. A file that
- * was missing is read when it exists. The same pictures result again after more panoramas than the cache holds. */
+ * was missing is read when it exists. A panorama that was evicted from the cache gives the same picture again. */
 static void here_and_gone(void **state)
 {
     const char *image = *state;

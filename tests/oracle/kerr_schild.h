@@ -24,7 +24,7 @@ enum ks_fate { KS_CAPTURED, KS_ESCAPED, KS_UNDECIDED };
 struct ks_path {
     int crossings;
     double r[16], phi[16], delay[16]; /* at each crossing of the equatorial plane after the start */
-    double momentum[16];              /* integrated angular momentum about the axis there */
+    double momentum[16];              /* angular momentum about the axis at each crossing, as integrated */
     bool falls[16];                   /* true if the light moves inwards there; the path, traced back, goes outwards */
     /* |p_z| there, the component along a unit normal of the plane: at z = 0, where l_z = 0, the metric's zz component
      * is 1. */

@@ -215,7 +215,7 @@ class Dumps(unittest.TestCase):
         return self.path(name)
 
     def test_units_and_electrons(self):
-        """The density unit, ratios of temperature, and stored entropies, each by its definition."""
+        """The density unit and the electrons' temperatures agree with their definitions, by ratios and by entropies."""
         flow, a = any_flow(0.3), 0.3
         dumps.write_iharm(
             self.path("a.h5"), "mks", SMALL, flow, a=a, entropy=lambda rho, u: 0.01 * u / rho, single=False
@@ -766,7 +766,7 @@ class Dumps(unittest.TestCase):
             self.assertLess(resident() - before, 2 << 20, name)
 
     def test_single_precision(self):
-        """With these units and cuts, a grid in single precision has no number or no matter."""
+        """Units and cuts are refused if single precision cannot hold a value of the grid, or if no matter is left."""
         path = self.written()
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -321,8 +321,8 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* the rings have equal widths in r; a ring has the area pi d(b^2), with b of its ray, and g = sqrt(1 - 3/r)
-         */
+        /* The image of a ring has the area pi d(b^2), where b is the impact parameter of its light. For all of its
+         * light g = sqrt(1 - 3/r). */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
             double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;

@@ -12,7 +12,7 @@ struct motion {
     struct kd_null_polar polar;
     struct kd_null_radial radial;
     struct kd_null_radial_sum start; /* radial integrals from the observer to the radial reference */
-    /* at Mino time tau from the observer, the Mino time from the reference is begin + forward tau */
+    /* After the Mino time tau along the traced ray, the Mino time from the reference is begin + forward * tau. */
     double begin, forward;
     double end; /* Mino time at which the ray is captured, or has escaped */
 };

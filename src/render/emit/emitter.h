@@ -148,8 +148,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
 extern const struct kd_emitter kd_emit_disk;
 /* Traits of the smooth disk, which apply also to emitters that use the disk's numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* Quantities of the lens map that emitters with the disk's light need. If rays are not on a grid, Carter's Q is
- * computed from their slope. */
+/* Quantities of the lens map that an emitter needs if it emits light as the disk does. If rays are not on a grid,
+ * Carter's Q is computed from the ray's slope. */
 uint32_t kd_disk_needs(const struct kd_scene *scene);
 /* kd_disk_reach: radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO
  * to 22 M." for the noun "thin disk". */

@@ -453,7 +453,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         begin_anew(&g->paces[0]);
         g->rings = rings;
         g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
-        g->lens_at = -INFINITY; /* a ringdown that a user starts is not a drag */
+        g->lens_at = -INFINITY; /* the camera does not move, so this change does not count as a drag */
     }
     g->asked = *asked;
     if (!same_work) /* the work at the start of the measurements is kept, so that many small changes are noticed

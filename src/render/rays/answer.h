@@ -43,8 +43,8 @@ size_t kd_rays_answer_bytes(const struct kd_rays_params *params, size_t n);
 
 enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd_error *error);
 
-/* Gets, by index, an approximation in force; returns false after the last. params NULL: gets any approximation of
- * rays, in force or not. */
+/* Gets the approximation of that index among those in force. If params is NULL, gets it among all approximations of
+ * rays. Returns false if the index is too large. */
 bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, struct kd_approximation *out);
 
 enum { KD_RAYS_ROW_MAX = 4096 };

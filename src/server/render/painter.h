@@ -22,7 +22,7 @@ struct kd_painter;
 struct kd_painting {
     struct kd_scene scene;
     const char *name; /* name of the file, made of letters, digits and - */
-    /* text that identifies the content; if that in the file differs, the picture is rendered again */
+    /* text that identifies the content; if the file has another text, the picture is rendered again */
     const char *mark;
     void (*done)(struct kd_painting *painting); /* called on the painter's thread */
     void *user;
