@@ -267,7 +267,7 @@ def make_kernels(server):
 
 
 def compare(programs, rounds=3):
-    """Measures one session, then eight, with each program in turn. Returns the rounds by program and number of sessions."""
+    """Measures one session, then eight, with each program in turn. Returns the rounds by program and session count."""
     out, device = {name: {"1": [], "8": []} for name in programs}, None
     for _ in range(rounds):
         for n in (1, 8):

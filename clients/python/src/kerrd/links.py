@@ -8,7 +8,7 @@ import time
 from typing import Optional, Union
 from urllib.parse import parse_qsl, quote, unquote, urlsplit
 
-# A link may be signed for these routes. A path is compared at its end, because a base path may stand before the route. A
+# A link may be signed for these routes. A path is compared at its end, because a base path may stand before it. A
 # file below /web/ may be in a folder, and the base path itself may be /web.
 _ROUTES = re.compile(
     r"/v1/render\Z|/v1/share/[^/]+/picture\.png\Z|/v1/physics/[^/]+\Z|/v1/jobs/[^/]+/result\Z|/s/[^/]+\Z"
