@@ -257,8 +257,8 @@ class Pictures(Case):
             self.assertEqual(self.read(name), self.read("a.fits"), name)
 
     def test_a_limit_of_the_size_of_a_file(self):
-        """A picture larger than the memory limit gives an error, not a signal, and leaves no partial file. Skipped for
-        drivers that keep memory in a file."""
+        """A file larger than `ulimit -f` allows gives an error, not a signal, and leaves no partial file. A driver that
+        keeps its memory in a file fails earlier, and the error names the limit."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
