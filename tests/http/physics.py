@@ -814,7 +814,7 @@ class Integrals(daemon.Case):
         unchecked = self.post("visibility", {**document, "check": "none"}).json()
         self.assertEqual((unchecked["columns"]["re"], set(unchecked["columns"]["error"])), (columns["re"], {None}))
         text = (pathlib.Path(__file__).resolve().parents[2] / "docs/physics/integrals.md").read_text()
-        named = set(re.findall(r"`([a-z_]+)`", re.search(r"- \*\*Columns\*\* of a row:(.*?)\n- ", text, re.S)[1]))
+        named = set(re.findall(r"`([a-z_]+)`", re.search(r"\n- \*\*The columns\*\* are (.*?)\n- ", text, re.S)[1]))
         self.assertEqual(named, set(unchecked["columns"]), "docs/physics/integrals.md names the columns")
         table = self.post("visibility", document, Accept="text/csv")
         self.assertEqual(table.header("Content-Disposition"), 'attachment; filename="visibility.csv"')
