@@ -19,7 +19,7 @@ typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 #ifndef WIDEST
 #define WIDEST
 #endif
-#define INLINE static inline __attribute__((always_inline))
+#define INLINE inline __attribute__((always_inline))
 
 enum { PIECE = 4096 }; /* number of steps between two preemption points */
 
@@ -36,14 +36,14 @@ struct state {
     lane worst_energy, worst_carter, worst_mass, worst_binet;
 };
 
-INLINE void add(struct exact *to, const lane *by)
+static INLINE void add(struct exact *to, const lane *by)
 {
     lane x = *by + to->rest, sum = to->value + x, part = sum - to->value;
     to->rest = (to->value - (sum - part)) + (x - part);
     to->value = sum;
 }
 
-INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
+static INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
 {
     /* removes the sign: non-negative doubles have the same order as their bits as integers */
     mask size = (mask)*x & INT64_MAX & *where;
@@ -52,14 +52,14 @@ INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
 }
 
 /* Computes the same sums as orbit_path.c, in the same order. */
-INLINE void radial_force(const struct state *s, const lane *w, const lane *rest, lane *force)
+static INLINE void radial_force(const struct state *s, const lane *w, const lane *rest, lane *force)
 {
     lane left = (*w - s->w_low) + *rest, right = (s->w_high - *w) - *rest;
     lane g = s->g[0] + *w * (s->g[1] + *w * s->g[2]), slope = s->g[1] + 2 * *w * s->g[2];
     *force = 0.5 * ((right - left) * g + left * right * slope);
 }
 
-INLINE void kick(struct state *s, double weight)
+static INLINE void kick(struct state *s, double weight)
 {
     lane w = s->place[KD_PATH_W].value, y = s->place[KD_PATH_Y].value, rest = s->place[KD_PATH_W].rest,
          f[KD_PATH_RATES];
@@ -79,7 +79,7 @@ INLINE void kick(struct state *s, double weight)
     }
 }
 
-INLINE void drift(struct state *s, int which)
+static INLINE void drift(struct state *s, int which)
 {
     for (int i = 0; i < KD_PATH_PLACES; i++) {
         const struct spring *spring = &s->spring[i];
@@ -92,7 +92,7 @@ INLINE void drift(struct state *s, int which)
     }
 }
 
-INLINE void look(struct state *s)
+static INLINE void look(struct state *s)
 {
     lane w = s->place[KD_PATH_W].value, v = s->rate[KD_PATH_W].value, y = s->place[KD_PATH_Y].value,
          u = s->rate[KD_PATH_Y].value;
