@@ -109,9 +109,9 @@ async function watch(scene) {
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
-    any = false, // in a stereo pair, the picture for each eye has half of the window's width
-    drift = () => {}, // true as soon as one picture has been shown
-    key = null, // function that is called with each picture
+    any = false, // true as soon as one picture has been shown
+    drift = () => {}, // function that is called with each picture
+    key = null, // promise of the function that draws the scales over a picture in false colour; null: not loaded
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -119,7 +119,7 @@ async function watch(scene) {
 
   async function show(frame) {
     const now = performance.now(),
-      // scales that are drawn over a picture in false colour, or null
+      // true if the words beside the picture are updated
       tells = frame.final || now - told_ms > telling_ms;
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);

@@ -233,7 +233,8 @@ class KerrHole extends HTMLElement {
     this.dispatchEvent(new Event('load'));
   }
 
-  // Shows the poster, and also the button if the element is interactive.
+  // Begins a session. byItself: true if the session starts without a touch. The element then does not take the focus,
+  // and keeps the still picture if the server is busy.
   async #begin(byItself = false) {
     if (live.includes(this)) return;
     const mine = ++this.#begun;
@@ -293,8 +294,7 @@ class KerrHole extends HTMLElement {
     return answer.json();
   }
 
-  // byItself: true if the session starts without a touch. The element then does not take the focus, and keeps the still
-  // picture if the server is busy.
+  // Draws the pictures of the session one after the other, until the session ends.
   async #run(session) {
     const { canvas } = this.#parts,
       context = canvas.getContext('2d');

@@ -8,9 +8,9 @@
 /* clang-format off */
 #define KD_BLOCK_disk(F, U, A) \
     F(r_in) F(r_out)       /* M */ \
-    F(fade)                /* largest effective temperature times the hardening factor, K */ \
+    F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
-    F(peak)                /* largest effective temperature times the hardening, K */ \
+    F(peak)                /* largest effective temperature times the hardening factor, K */ \
     F(luminous) /* log2 of the fraction of light that the eye perceives, for a black body of temperature `peak` */ \
     F(quanta)              /* x = h nu/(k T), with nu the observed frequency and T the temperature `peak` */ \
     F(quanta_mean)         /* (1 - exp(-x))/x for the x above */

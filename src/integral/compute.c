@@ -190,7 +190,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "mu_near", "1",
                                    "near side: cosine of the angle between the emitted light and the disk's normal in "
                                    "the gas's frame" },
-                                 { "mu_far", "1", "far side: the same cosine" },
+                                 { "mu_far", "1", "far side: cosine of the same angle" },
                                  { "g_min", "1", "smallest g of the ring" },
                                  { "g_max", "1", "largest g of the ring" } },
                                transfer_sources,
@@ -316,9 +316,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_SETS] = { "parameter sets of a scene compared with an interferometer's observation",
                            { { "pictures", "1", "number of different scenes, each rendered once", false },
                              { "pixel_uas", "uas", "distance from one pixel to the next, in the last picture", false },
-                             { "width_uas", "uas", "of the last map", false },
-                             { "height_uas", "uas", "of the last map", false },
-                             { "nyquist_gl", "Gl", "longest baseline that the width of its pixels resolves", false },
+                             { "width_uas", "uas", "width of the last map", false },
+                             { "height_uas", "uas", "height of the last map", false },
+                             { "nyquist_gl", "Gl", "longest baseline that the pixels of the last map resolve", false },
                              { "edge_share", "1",
                                "flux of a map that is everywhere as bright as the map's border, as a share of the "
                                "map's flux; the largest of all maps",

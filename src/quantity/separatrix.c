@@ -8,7 +8,7 @@
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
-      .help = "inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde") \
+      .help = "inclination of the orbit to the equator, defined as in /v1/orbits; more than 90 is retrograde") \
     P(e, .unit = "1", .typed = "0", .least = 0, .most = 0.999999, .help = "eccentricity")
 #define OUTPUTS(O) \
     O(p, .unit = "M", .help = "smallest semi-latus rectum of a stable bound orbit") \

@@ -22,7 +22,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef A
 #undef BLOCK
 #undef MEMBER
-_Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
+_Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "std140 aligns the elements of an array to 16 bytes");
 
 /* Tables are read as texels. On lavapipe, reading four floats then costs as much as reading one word of a storage
  * buffer. */
@@ -32,7 +32,7 @@ struct kd_emit_tables { KD_EMIT_TABLES };
 #undef KD_T
 #define KD_T(table, rows) +(rows)
 _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMIT_TABLES),
-               "no gaps: the kernels count rows");
+               "the tables must have no gaps, because kernels address the rows by number");
 #undef KD_T
 
 /* Checks that no two traits share a bit of a word. If two did, the sum of all traits would differ from their bitwise
