@@ -6,74 +6,12 @@ import { byId, el, still } from '../../base/dom.js';
 import { buildForm } from '../../base/form.js';
 import { number, t, tell, word } from '../../words/i18n.js';
 import { follow, settled } from './orbit-ask.js';
+import { facts, nameOf } from './orbit-facts.js';
 import { ends, integrals, own, requested, specs, thrown } from './orbit-fields.js';
 import { buildPicture, smooth } from './orbit-picture.js';
+import { drawDrift, drawPotential } from './orbit-plots.js';
 import { plot } from '../../base/plot.js';
-import { drawn, physics } from '../../base/server.js';
-
-const rows = pairs =>
-  pairs
-    .filter(pair => pair?.[1] != null)
-    .map(([name, value]) => el('tr', {}, el('th', { scope: 'row' }, name), el('td', {}, value)));
-
-function facts(answer) {
-  const { constants: c = {}, turning_points: turn = {}, advance, shape, result = {} } = answer,
-    degrees = x => (x == null ? '–' : `${number((x * 180) / Math.PI)}°`);
-  const drift = result.drift ?? {},
-    flat = turn.theta_min_deg === 90,
-    century = advance?.periastron_arcsec_per_century,
-    measured = result.periastron_advance_measured;
-  return rows([
-    ['a', `${number(answer.spin)} M`],
-    shape && [
-      t('common.p-e-inclination', 'p, e, inclination'),
-      `${number(shape.p)} M, ${number(shape.e)}, ${number(shape.inclination_deg)}°`,
-    ],
-    [t('orbits.fate', 'Fate'), word(answer.fate)],
-    ['E', Math.abs(c.binding) < 1e-4 ? `1 − ${number(c.binding / (1 + c.energy))}` : number(c.energy, 8)],
-    ['L', `${number(c.angular_momentum, 8)} M`],
-    ['Q (Carter)', `${number(c.carter, 8)} M²`],
-    [
-      t('orbits.nearest-farthest', 'Nearest, farthest'),
-      `${result.end === 'horizon' || turn.r_min == null ? t('common.horizon', 'horizon') : number(turn.r_min)} – ${turn.r_max == null ? '∞' : number(turn.r_max) + ' M'}`,
-    ],
-    // a circle has no periastron, and an orbit in the equatorial plane has no node
-    advance && [
-      t('orbits.advance-of-the-periastron', 'Advance of the periastron, exact'),
-      answer.circular ? '–' : degrees(advance.periastron),
-    ],
-    advance && century != null && !answer.circular && [t('orbits.in-a-century', 'in a century'), `${number(century)}″`],
-    measured != null && [
-      flat
-        ? t('orbits.measured-on-the-path', 'measured on the path')
-        : t(
-            'orbits.measured-on-the-path-mean-of-its',
-            'measured on the path: the mean of its periods, which differ out of the plane; the mean of many is exact',
-          ),
-      degrees(measured),
-    ],
-    advance && !answer.circular && [t('orbits.weak-field-6-m', 'weak field, 6πM/p'), degrees(advance.weak_field)],
-    advance && [t('orbits.advance-of-the-node', 'Advance of the node (dragging)'), flat ? '–' : degrees(advance.node)],
-    [t('orbits.drift-of-the-energy', 'Drift of the energy'), number(drift.energy, 2)],
-    [t('orbits.of-carters-constant', 'of Carter’s constant'), number(drift.carter, 2)],
-    [t('orbits.of-the-mass', 'of the mass'), number(drift.mass, 2)],
-    [t('orbits.steps', 'Steps'), number(result.steps)],
-  ]);
-}
-
-function nameOf({ spin, shape }) {
-  const a = `a = ${number(spin)} M`;
-  return shape
-    ? t(
-        'orbits.p-m-e-inclination',
-        '{0}, p = {1} M, e = {2}, inclination {3}°',
-        a,
-        number(shape.p),
-        number(shape.e),
-        number(shape.inclination_deg),
-      )
-    : a;
-}
+import { physics } from '../../base/server.js';
 
 export async function openOrbits() {
   const picture = buildPicture(byId('orbit-picture'), { placed, thrown: throwIt }),
@@ -247,65 +185,10 @@ export async function openOrbits() {
     byId('orbit-approximations').replaceChildren(
       ...(answer.result.approximations ?? []).map(text => tell(el('li'), text)),
     );
-    const least = 10 ** Math.floor(Math.log10(Math.max(...samples.error.map(Math.abs)) || 1e-16));
-    drift.draw({
-      title: t('orbits.energy-error-along-the', 'Energy error along the way'),
-      x: { label: t('common.time-t-m', 'time t / M') },
-      y: { label: `ΔE / E / ${number(least)}` },
-      series: [
-        {
-          name: t('orbits.first-integral-less-its', 'first integral minus its initial value'),
-          x: samples.t,
-          y: samples.error.map(error => error / least),
-        },
-      ],
-      marks: [{ y: 0 }],
-    });
-    await showPotential(answer);
+    drawDrift(drift, samples.t, samples.error);
+    await drawPotential(potential, answer);
     last = performance.now();
     begin();
-  }
-
-  async function showPotential({ spin, constants, turning_points: turn }) {
-    const high = Math.min(Math.max(3 * (turn.r_max ?? 20), 12), 1e8),
-      flat = Math.abs(constants.carter) < 1e-9;
-    const { horizon } = (await physics('kerr', { spin })).values;
-    const v = await physics('potential', {
-      spin,
-      l: constants.angular_momentum,
-      r: `${horizon}:${high}:400`,
-      ...(high < 1e3 ? drawn : {}),
-    });
-    // Far out, the potential is close to 1 everywhere, and the part above 1 is a steep wall next to the hole. In that
-    // case the chart shows the potential's difference from 1.
-    const least = v.values.v_min_matter ?? constants.energy,
-      off = 1 - least < 1e-3 ? 1 : 0,
-      energy = off ? -constants.binding / (1 + constants.energy) : constants.energy,
-      low = Math.min(energy, least - off),
-      top = Math.max(energy, off ? (1 - least) / 2 : Math.min(v.values.v_max_matter ?? 1, 1.3), 1 - off);
-    potential.draw({
-      title: t('orbits.effective-potential-and-the', 'Effective potential and the energy of this orbit'),
-      note: flat
-        ? ''
-        : t(
-            'orbits.that-of-the-equatorial',
-            'The potential in the equatorial plane for this L. Out of the plane, Carter’s constant raises it.',
-          ),
-      x: { label: t('common.radius-r-m', 'radius r / M'), min: 0 },
-      y: { label: off ? 'V_eff − 1' : 'V_eff', min: low - 0.3 * (top - low), max: top + 0.3 * (top - low) },
-      series: [
-        {
-          name: off ? 'V_eff − 1' : 'V_eff',
-          x: v.parameters.r,
-          y: v.values.v_matter.map(value => value && value - off),
-        },
-      ],
-      marks: [
-        { y: energy, label: off ? 'E − 1' : 'E' },
-        ...(turn.r_min ? [{ x: turn.r_min, label: 'r_min' }] : []),
-        ...(turn.r_max ? [{ x: turn.r_max, label: 'r_max' }] : []),
-      ],
-    });
   }
 
   const form = buildForm(byId('orbit-inputs'), 'orbit', specs, load);
