@@ -1214,7 +1214,7 @@ export interface LineRequest {
   charge?: number;
   /** angle between the axis and the observer, who is at infinity [deg]; 0 to 180. */
   inclination_deg?: number;
-  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  /** radius of the disk's inner edge, at least that of the ISCO [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
@@ -1348,7 +1348,7 @@ export interface TransferFunctionRequest {
    * 179.9.
    */
   inclination_deg?: number;
-  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  /** radius of the disk's inner edge, at least that of the ISCO [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
@@ -1419,7 +1419,7 @@ export interface SpectrumRequest {
   charge?: number;
   /** angle between the axis and the observer, who is at infinity [deg]; 0 to 180. */
   inclination_deg?: number;
-  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  /** radius of the disk's inner edge, at least that of the ISCO [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
@@ -1530,7 +1530,7 @@ export interface ImpulseRequest {
   charge?: number;
   /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
-  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  /** radius of the disk's inner edge, at least that of the ISCO [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
@@ -1645,7 +1645,7 @@ export interface LagsRequest {
   charge?: number;
   /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
   inclination_deg?: number;
-  /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
+  /** radius of the disk's inner edge, at least that of the ISCO [M]; 1 to 1000000. */
   inner?: 'isco' | number;
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
@@ -5134,7 +5134,7 @@ export interface Operations {
         theta_deg?: number | string;
         /** radius of the circular orbit whose frequencies are given [M]; 1 to 1000000000; default 10. */
         r?: 'isco' | number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5269,7 +5269,7 @@ export interface Operations {
         infall_momentum?: number | string;
         /** angle about the curve's centre, from the right over the top [degrees]; -360 to 720; default "0:355:72". */
         angle_deg?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5374,7 +5374,7 @@ export interface Operations {
         charge?: number | string;
         /** impact parameter of light in the equatorial plane, |L|/E [M]; 1 to 1e+12; default 10. */
         b?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5469,7 +5469,7 @@ export interface Operations {
         l?: number | string;
         /** radius [M]; 1 to 1000000000; default "2:30:281". */
         r?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5544,7 +5544,7 @@ export interface Operations {
          * 720; default "0:355:72".
          */
         phi_deg?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5677,7 +5677,7 @@ export interface Operations {
          * at infinity [degrees]; -360 to 720; default "0:355:72".
          */
         angle_deg?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5780,7 +5780,7 @@ export interface Operations {
         outer?: 'infinity' | number | string;
         /** order of the ring: number of half turns of its light round the hole; 1 to 12; default "1:6:6". */
         order?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5858,7 +5858,7 @@ export interface Operations {
         mdot_edd?: number | string;
         /** radius in the disk [M]; 1 to 1000000000; default 20. */
         r?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -5948,7 +5948,7 @@ export interface Operations {
         limb?: 'isotropic' | 'laor' | 'haardt' | 'scattering';
         /** radius in the disk, at least the ISCO [M]; 1 to 1000000; default 10. */
         r?: 'isco' | number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6049,7 +6049,7 @@ export interface Operations {
       query?: {
         /** temperature [K]; 100 to 1000000000; default 5772. */
         temperature_k?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6127,7 +6127,7 @@ export interface Operations {
         spin?: number | string;
         /** mass of the hole, with any redshift: m (1 + z) [solar masses]; 0.001 to 1e+12; default 60. */
         mass_msun?: number | string;
-        /** time of the sample `wave` [M]; 0 to 1000000; default 0. */
+        /** time at which `wave` is computed [M]; 0 to 1000000; default 0. */
         t?: number | string;
         /**
          * octaves by which the sound is higher than the ringing; the sound also decays faster by the same factor; -40
@@ -6138,7 +6138,7 @@ export interface Operations {
          * factor by which the decay of the shifted sound is slowed down, at the same pitch; 1 to 1000000; default 1.
          */
         stretch?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv' | 'wav';
@@ -6162,7 +6162,7 @@ export interface Operations {
         values: {
           /** angular frequency. */
           omega_re: number | null | (number | null)[];
-          /** minus the damping rate. */
+          /** imaginary part of the frequency, minus the damping rate. */
           omega_im: number | null | (number | null)[];
           /** separation constant A_lm(a omega), l(l+1) - 2 at spin 0. */
           separation_re: number | null | (number | null)[];
@@ -6176,7 +6176,7 @@ export interface Operations {
           quality_cubic_error: number | null | (number | null)[];
           /** omega_re by the fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes. */
           fit_omega_re: number | null | (number | null)[];
-          /** their Q. */
+          /** quality factor by that fit. */
           fit_quality: number | null | (number | null)[];
           /** relative error of fit_omega_re. */
           fit_omega_re_error: number | null | (number | null)[];
@@ -6184,7 +6184,7 @@ export interface Operations {
           fit_quality_error: number | null | (number | null)[];
           /** omega_re/(2 pi) for mass_msun. */
           frequency_hz: number | null | (number | null)[];
-          /** time in which the amplitude falls by e. */
+          /** time in which the amplitude falls by a factor e. */
           damping_s: number | null | (number | null)[];
           /** t for mass_msun. */
           t_s: number | null | (number | null)[];
@@ -6241,7 +6241,7 @@ export interface Operations {
         r?: number | string;
         /** azimuth; ranges of azimuth and r make a mesh [degrees]; -360 to 360; default 0. */
         phi_deg?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6305,7 +6305,7 @@ export interface Operations {
         theta_deg?: number | string;
         /** radius [M]; 1 to 1000000000; default 10. */
         r?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6380,7 +6380,7 @@ export interface Operations {
         mass_msun?: number | string;
         /** radius of the falling observer [M]; 0.001 to 10000000; default "0.2:20:100". */
         r?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6514,7 +6514,7 @@ export interface Operations {
         yaw_deg?: number | string;
         /** direction of g: angle upwards, as camera.pitch_deg [degrees]; -90 to 90; default 0. */
         pitch_deg?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6616,7 +6616,7 @@ export interface Operations {
         mass_msun?: 'hole' | number | string;
         /** angular diameter distance of the hole [pc]; 0.001 to 100000000000; default "hole". */
         distance_pc?: 'hole' | number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6722,7 +6722,7 @@ export interface Operations {
          * time before coalescence, for the chirp of a circular orbit of these masses [s]; 1e-09 to 1e+20; default 1.
          */
         before_s?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6835,7 +6835,7 @@ export interface Operations {
          * 1000000000; default "fallback".
          */
         time_days?: 'fallback' | number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';
@@ -6930,7 +6930,7 @@ export interface Operations {
         inclination_deg?: number | string;
         /** eccentricity; 0 to 0.999999; default 0. */
         e?: number | string;
-        /** significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits; 1 to 17. */
+        /** significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision; 1 to 17. */
         digits?: number;
         /** format of the answer, instead of Accept. */
         format?: 'json' | 'csv';

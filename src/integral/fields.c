@@ -76,7 +76,7 @@
     .help = "angle between the axis and the observer, who is at infinity; not " below " to " above, \
     .schema = "\"anyOf\":[{\"type\":\"number\",\"minimum\":" low ",\"maximum\":" below "},{\"type\":\"number\"," \
               "\"minimum\":" above ",\"maximum\":" high "}]"
-_Static_assert((int)KD_DISK_IMAGE_EDGE_ON == 3, "the schemas say so");
+_Static_assert((int)KD_DISK_IMAGE_EDGE_ON == 3, "the ranges from 87 to 93 in the schemas assume 3 degrees");
 
 const struct kd_row kd_integral_fields[] = {
     { .name = "spin",
@@ -103,7 +103,7 @@ const struct kd_row kd_integral_fields[] = {
         INCLINATION(LINE | SPECTRUM, .help = "angle between the axis and the observer, who is at infinity"),
     INCLINATION(ECHO, BESIDE("0", "87", "93", "180")),
     INCLINATION(TRANSFER, BESIDE("0.1", "89.99", "90.01", "179.9")),
-    OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
+    OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "radius of the disk's inner edge, at least that of the ISCO"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
     WORD(emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,
          "dependence of the line's emissivity on radius. power, broken: powers of r; lamppost, ring, disk, slab: in "

@@ -19,7 +19,7 @@
               "uniquely") \
     P(mass_msun, .unit = "solar masses", .typed = "60", .least = 1e-3, .most = 1e12, \
       .help = "mass of the hole, with any redshift: m (1 + z)") \
-    P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time of the sample `wave`") \
+    P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time at which `wave` is computed") \
     P(shift_octaves, .unit = "1", .typed = "0", .least = -40, .most = 40, \
       .help = \
           "octaves by which the sound is higher than the ringing; the sound also decays faster by the same factor") \
@@ -27,7 +27,7 @@
       .help = "factor by which the decay of the shifted sound is slowed down, at the same pitch")
 #define OUTPUTS(O) \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
-    O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate") \
+    O(omega_im, .unit = "1/M", .fixed = true, .help = "imaginary part of the frequency, minus the damping rate") \
     O(separation_re, .unit = "1", .fixed = true, .help = "separation constant A_lm(a omega), l(l+1) - 2 at spin 0") \
     O(separation_im, .unit = "1", .fixed = true, .help = "imaginary part of the separation constant") \
     O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)") \
@@ -36,11 +36,11 @@
     O(quality_cubic_error, .unit = "1", .fixed = true, .help = "relative error of quality_cubic") \
     O(fit_omega_re, .unit = "1/M", .fixed = true, \
       .help = "omega_re by the fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes") \
-    O(fit_quality, .unit = "1", .fixed = true, .help = "their Q") \
+    O(fit_quality, .unit = "1", .fixed = true, .help = "quality factor by that fit") \
     O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "relative error of fit_omega_re") \
     O(fit_quality_error, .unit = "1", .fixed = true, .help = "relative error of fit_quality") \
     O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun") \
-    O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e") \
+    O(damping_s, .unit = "s", .help = "time in which the amplitude falls by a factor e") \
     O(t_s, .unit = "s", .help = "t for mass_msun") \
     O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)") \
     O(sound_hz, .unit = "Hz", .help = "frequency of the WAV file: frequency_hz shifted by shift_octaves") \
@@ -50,7 +50,7 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
     "S. A. Teukolsky 1973, ApJ 185, 635; E. W. Leaver 1985, Proc. R. Soc. Lond. A 402, 285 (continued fractions)",
-    "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (their remainder)",
+    "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (remainder of the continued fractions)",
     "S. R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (start at spin 0)",
     "fit: E. Berti, V. Cardoso & C. M. Will 2006, Phys. Rev. D 73, 064030, table VIII",
     "quality_cubic: no source is known; it is given for comparison",

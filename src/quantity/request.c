@@ -12,7 +12,7 @@ const struct kd_row kd_quantity_digits = {
     .offset = offsetof(struct kd_quantity_request, digits),
     .least = 1,
     .most = KD_DECIMAL_DIGITS,
-    .help = "significant digits of numbers in lists, and of all numbers in CSV; 17 gives all digits",
+    .help = "significant digits of numbers in lists, and of all numbers in CSV; 17: full double precision",
 };
 
 bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i)

@@ -121,8 +121,8 @@ SCENE = (
 )
 # Refusals that depend on the engine and its precision, and on the device or the table of its driver.
 ENGINE = (
-    'the closed engine works in double precision: precision must be "f64", or the engine must be another',
-    "steps cannot be used with the closed engine, which takes none: it must be 0, or the engine must be another",
+    'with engine "closed" precision must be "f64", because that engine works in double precision',
+    'steps cannot be used with engine "closed", because that engine takes no steps; steps must be 0',
     "steps is %u; with a tolerance, which determines the steps, it must be 0",
     'tolerance is %.9g; it cannot be used with the engine "closed", whose accuracy depends only on its precision',
     "steps is %u; for %s it must be a multiple of 4 up to %u, or 0 for the engine's default",

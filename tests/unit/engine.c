@@ -126,7 +126,7 @@ static void what_cannot_be(void **state)
     refuse(asked_accuracy, true, "/accuracy/tolerance", "closed");
     asked_accuracy = (struct kd_accuracy_request)NONE;
     asked_accuracy.steps = 8;
-    refuse(asked_accuracy, true, "/accuracy/steps", "which takes none");
+    refuse(asked_accuracy, true, "/accuracy/steps", "that engine takes no steps");
     asked_accuracy.engine = KD_ENGINE_MINO_RKN6;
     asked_accuracy.steps = 6;
     refuse(asked_accuracy, true, "/accuracy/steps", "a multiple of 4");

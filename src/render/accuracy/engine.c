@@ -124,9 +124,9 @@ enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, c
             error, "/accuracy/precision",
             "precision is f64, which this device lacks; it must be f32, or the engine must be \"closed\"");
     if (!status && out->engine == KD_ENGINE_CLOSED && asked_accuracy->steps)
-        return kd_error_field(error, "/accuracy/steps",
-                              "steps cannot be used with the closed engine, which takes none: it must be 0, or the "
-                              "engine must be another");
+        return kd_error_field(
+            error, "/accuracy/steps",
+            "steps cannot be used with engine \"closed\", because that engine takes no steps; steps must be 0");
     if (!status && (asked_accuracy->steps % 4 || asked_accuracy->steps > kd_engine_most_steps(out->engine)))
         return kd_engine_steps_error(out->engine, asked_accuracy->steps, error);
     return status;

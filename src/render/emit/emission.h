@@ -22,7 +22,8 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef A
 #undef BLOCK
 #undef MEMBER
-_Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "std140 aligns the elements of an array to 16 bytes");
+_Static_assert(sizeof(struct kd_spot_block) % 16 == 0,
+               "std140: the size of an array element must be a multiple of 16 bytes");
 
 /* Tables are read as texels. On lavapipe, reading four floats then costs as much as reading one word of a storage
  * buffer. */
@@ -32,7 +33,7 @@ struct kd_emit_tables { KD_EMIT_TABLES };
 #undef KD_T
 #define KD_T(table, rows) +(rows)
 _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMIT_TABLES),
-               "the tables must have no gaps, because kernels address the rows by number");
+               "tables must have no gaps, because the kernels address them by row number");
 #undef KD_T
 
 /* Checks that no two traits share a bit of a word. If two did, the sum of all traits would differ from their bitwise
@@ -41,7 +42,7 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name) \
     _Static_assert(KD_TRAIT_PRESENT KD_TRAITS_##name(ADDED) == (KD_TRAIT_PRESENT KD_TRAITS_##name(JOINED)), \
-                   "bits of the traits of " #name);
+                   "traits must not share a bit: " #name);
 KD_EMITTERS(DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT, DISJOINT)
 #undef ADDED
 #undef JOINED
@@ -54,9 +55,11 @@ enum { KD_EMIT_BUFFERS };
 #define KD_B(number, type, member) +1
 enum { KD_OWN_COUNT = 0 KD_EMIT_BUFFERS };
 #undef KD_B
-_Static_assert(KD_LIGHT_BINDING == KD_OWN_BINDING + KD_OWN_point_light, "as shaders/shared/emitters.h says");
+_Static_assert(KD_LIGHT_BINDING == KD_OWN_BINDING + KD_OWN_point_light,
+               "KD_LIGHT_BINDING in shaders/shared/emitters.h must be the binding of point_light");
 #define KD_B(number, type, member) +(1 << number)
-_Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1, "each has a number of its own, from 0 on");
+_Static_assert((0 KD_EMIT_BUFFERS) == (1 << KD_OWN_COUNT) - 1,
+               "the numbers of the buffers must be 0, 1, 2, ..., each used once");
 #undef KD_B
 
 /* Numbers and tables are in one buffer, numbers first. */
@@ -65,8 +68,10 @@ struct kd_emit_data {
     char gap[256 - sizeof(struct kd_emission) % 256];
     struct kd_emit_tables tables;
 };
-_Static_assert(offsetof(struct kd_emit_data, tables) % 256 == 0,
-               "256 is the largest alignment that a device may require of a binding's offset");
-_Static_assert(sizeof(struct kd_emit_tables) / sizeof(kd_table_row) <= 65536, "texels that every device can bind");
+_Static_assert(
+    offsetof(struct kd_emit_data, tables) % 256 == 0,
+    "the offset must be a multiple of 256 bytes, the largest alignment that a device may require of a binding");
+_Static_assert(sizeof(struct kd_emit_tables) / sizeof(kd_table_row) <= 65536,
+               "tables must have at most 65536 texels, the number that every device can bind");
 
 #endif

@@ -39,11 +39,11 @@ static enum kd_status check_accuracy(const struct kd_rays_params *p, struct kd_e
     if (closed && p->precision != KD_PRECISION_F64)
         return kd_error_field(
             error, "/accuracy/precision",
-            "the closed engine works in double precision: precision must be \"f64\", or the engine must be another");
+            "with engine \"closed\" precision must be \"f64\", because that engine works in double precision");
     if (closed && p->steps)
-        return kd_error_field(error, "/accuracy/steps",
-                              "steps cannot be used with the closed engine, which takes none: it must be 0, or the "
-                              "engine must be another");
+        return kd_error_field(
+            error, "/accuracy/steps",
+            "steps cannot be used with engine \"closed\", because that engine takes no steps; steps must be 0");
     if (p->steps % 4 || p->steps > kd_engine_most_steps(p->engine))
         return kd_engine_steps_error(p->engine, p->steps, error);
     return KD_OK;

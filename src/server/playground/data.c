@@ -139,7 +139,7 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
     uint64_t after, wait_ms, most = 0;
     enum MHD_Result refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
-        return bad_number(request, "after must be a whole number, the Kerrd-Generation of your last answer");
+        return bad_number(request, "after must be a whole number, the value of Kerrd-Generation in the last answer");
     if (!kd_target_whole(&request->target, "wait_ms", KD_WAIT_MS, KD_WAIT_MS_MAX, &wait_ms))
         return bad_number(request, "wait_ms must be a whole number of milliseconds, 0 to 60000");
     if (debris &&
