@@ -44,7 +44,11 @@ function askingForm(list, refuse, act) {
       text,
       el('label', { for: choices.id }, t('lesson.answers-one-a-line', 'Answers, one a line')),
       choices,
-      el('p', { class: 'help' }, t('lesson.two-to-six-answers', 'Two to six answers. A * before one marks it as right.')),
+      el(
+        'p',
+        { class: 'help' },
+        t('lesson.two-to-six-answers', 'Two to six answers. A * before one marks it as right.'),
+      ),
     );
   const form = el(
     'form',
@@ -99,12 +103,7 @@ function asked({ text, choices, open, right }, shows, { act, look }) {
 
 // Shows the answers of the class in the elements of asked().
 function showHands({ answered, tally, who }, { choices, answered: n, tally: votes, right, open }, hands) {
-  answered.textContent = t(
-    'lesson.of-have-answered',
-    '{0} of {1} have answered.',
-    number(n),
-    number(hands.length),
-  );
+  answered.textContent = t('lesson.of-have-answered', '{0} of {1} have answered.', number(n), number(hands.length));
   [...tally.children].forEach((item, i) => {
     item.querySelector('meter').value = votes[i] / Math.max(1, n);
     item.querySelector('b').textContent = number(votes[i]);

@@ -53,18 +53,13 @@ const same = (values, side) =>
 
 // The index of the ready pair whose right side has exactly the values in other.over; -1 if there is none.
 export const readyIndex = other =>
-  ready.findIndex(
-    ({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other),
-  );
+  ready.findIndex(({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other));
 
 // The labels of both sides.
 export function captionsOf(scene, other) {
   const found = ready.find(
     ({ words, left, right }) =>
-      words &&
-      Object.keys(other.over).length === Object.keys(right).length &&
-      same(left, scene) &&
-      same(right, other),
+      words && Object.keys(other.over).length === Object.keys(right).length && same(left, scene) && same(right, other),
   );
   return (
     found?.words ??
