@@ -1393,7 +1393,7 @@ export interface TransferFunction {
     f_far: (number | null)[];
     /** near side: cosine of the angle between the emitted light and the disk's normal in the gas's frame. */
     mu_near: (number | null)[];
-    /** far side: the same cosine. */
+    /** far side: cosine of the same angle. */
     mu_far: (number | null)[];
     /** smallest g of the ring. */
     g_min: (number | null)[];
@@ -1698,7 +1698,9 @@ export interface LagsRequest {
    * alone; 1e-09 to 1000000000.
    */
   reference_min?: 'continuum' | number;
-  /** upper end of that band; 1e-09 to 1000000000. */
+  /**
+   * upper end of the band that lags are measured against; continuum: the direct light alone; 1e-09 to 1000000000.
+   */
   reference_max?: 'continuum' | number;
   /** mass of the hole [solar masses]; 1e-05 to 1e+12. */
   mass_msun?: number;
@@ -2133,11 +2135,11 @@ export interface ComparisonOfSets {
     pictures: number | null;
     /** distance from one pixel to the next, in the last picture. */
     pixel_uas: number | null;
-    /** of the last map. */
+    /** width of the last map. */
     width_uas: number | null;
-    /** of the last map. */
+    /** height of the last map. */
     height_uas: number | null;
-    /** longest baseline that the width of its pixels resolves. */
+    /** longest baseline that the pixels of the last map resolve. */
     nyquist_gl: number | null;
     /**
      * flux of a map that is everywhere as bright as the map's border, as a share of the map's flux; the largest of
@@ -6924,8 +6926,8 @@ export interface Operations {
         /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
         charge?: number | string;
         /**
-         * inclination of the orbit to the equator, as of /v1/orbits; more than 90 is retrograde [degrees]; 0 to 180;
-         * default 0.
+         * inclination of the orbit to the equator, defined as in /v1/orbits; more than 90 is retrograde [degrees]; 0 to
+         * 180; default 0.
          */
         inclination_deg?: number | string;
         /** eccentricity; 0 to 0.999999; default 0. */
