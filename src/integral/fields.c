@@ -171,7 +171,8 @@ const struct kd_row kd_integral_fields[] = {
     OR_WORD(reference_min, "", 1e-9, 1e9, "continuum", LAGS,
             "lower end of the band that lags are measured against, in the unit of rest_energy; continuum: the direct "
             "light alone"),
-    OR_WORD(reference_max, "", 1e-9, 1e9, "continuum", LAGS, "upper end of the band that lags are measured against; continuum: the direct light alone"),
+    OR_WORD(reference_max, "", 1e-9, 1e9, "continuum", LAGS,
+            "upper end of the band that lags are measured against; continuum: the direct light alone"),
     INT(rings, 1, 1000, TRANSFER, "number of radii, from inner to outer at equal ratios"),
     NUMBERS(radii, "M", 1, 1e6, TRANSFER, "radii, instead of rings; between inner and outer"),
     INT(g_stars, 1, 1000, TRANSFER,
