@@ -138,7 +138,7 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
 {
     char text[80];
     const char *caching = MHD_get_response_header(response, "Cache-Control");
-    /* not in public answers, because a shared cache would send one client's quota to all clients */
+    /* public answers have no quota, because a shared cache would send one client's quota to all clients */
     if (caching && !strncmp(caching, "public", 6))
         return;
     if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))

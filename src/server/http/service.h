@@ -85,8 +85,8 @@ struct kd_server {
     struct kd_connections *connections;
     struct kd_render_queue *renders;
     struct kd_scheduler *rays;      /* scheduler of requests for rays */
-    struct kd_scheduler *scheduler; /* returns the client's quota; NULL: device time is not limited */
-    /* cubes that are being downloaded (job/archive.c); HTTP thread only */
+    struct kd_scheduler *scheduler; /* scheduler of all other tasks */
+    /* callback that returns the client's quota; NULL: device time is not limited */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client);
     struct kd_sessions *sessions;
     struct kd_lessons *lessons;

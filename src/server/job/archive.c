@@ -160,7 +160,7 @@ static ssize_t produce_from(void *cls, uint64_t position, char *to, size_t size)
 
 /* Task that makes the preparations before the first byte of an archive. */
 struct looked {
-    struct kd_task task;        /* must be the first member */
+    struct kd_task task;        /* must be first: callbacks cast its address to this struct */
     struct kd_job_whole *whole; /* NULL after the answer has taken it over */
     const struct kd_gather_format *format;
     uint64_t length; /* length of the archive in bytes, if it is known in advance */

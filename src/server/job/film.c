@@ -14,7 +14,7 @@
 
 /* A task that moves a film's playground to the next frame. */
 struct stride {
-    struct kd_scheduler_job scheduled; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be first: callbacks cast its address to this struct */
     struct kd_job *job;                /* a counted reference */
     unsigned to;
     bool under_way; /* `run` has begun */

@@ -19,7 +19,7 @@
 
 /* A stream of frames, which starts at the frame watcher.next. Each frame is preceded by a header of 16 bytes. */
 struct frames {
-    struct kd_job_watcher watcher; /* must be the first member */
+    struct kd_job_watcher watcher; /* must be first: callbacks cast its address to this struct */
     int fd;                        /* the file of the present frame; -1: none is open */
     uint64_t left;
     struct kd_buffer out; /* bytes that were generated; those before `at` are sent */

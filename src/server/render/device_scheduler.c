@@ -88,7 +88,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     /* After a failure, only jobs that are inside the renderer get turns, so that they can leave it. */
     if (queue->failed)
         return job->inside;
-    if (job == &queue->rest && (queue->compiling || queue->inside)) /* not now: freeing memory may close the device */
+    /* freeing memory may close the device, so it waits until nobody uses the device */
+    if (job == &queue->rest && (queue->compiling || queue->inside))
         return false;
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;

@@ -64,7 +64,7 @@ struct kd_render_job {
     struct kd_plan plan;
     const struct kd_format *format; /* format of the file that is made from the picture */
     enum kd_effort effort;
-    struct kd_blur blur;    /* motion blur; samples is 0, the default, if there is none */
+    struct kd_blur blur;    /* motion blur; samples = 0 (the default): no motion blur */
     unsigned number, lossy; /* as in struct kd_picture */
     char hash[65];          /* as in struct kd_picture */
     bool keeps;             /* true if the layers of the frame are kept after it was encoded */
