@@ -13,7 +13,7 @@ enum kd_status {
     KD_ETOOBIG,    /* the input is valid, but too large for this device or this server */
     KD_ENOMEM,     /* the host or the device has no memory left */
     KD_EIO,        /* reading or writing a file or socket failed */
-    KD_EFULL,      /* no room on the disk                                           */
+    KD_EFULL,      /* the disk is full                                           */
     KD_EDEVICE,    /* there is no usable device, or the device failed or missed its deadline */
     KD_EBUSY,      /* the queue is full; retry later */
     KD_EABSENT,    /* a required external program is not installed */

@@ -49,7 +49,7 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* RFC 9110 defines no Content-Range for this failure on an empty file */
+    if (spec.suffix && spec.last && !size) /* for an empty file, RFC 9110 defines no Content-Range of this failure */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     union {
         const void *in;
         void *out;
-    } bytes = { data }; /* libmicrohttpd does not write to these bytes */
+    } bytes = { data }; /* removes const, which is safe because libmicrohttpd does not write to these bytes */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
     if (response && type)
         MHD_add_response_header(response, "Content-Type", type);

@@ -126,7 +126,7 @@ struct kd_server {
      * answer */
     _Atomic bool ended;
     pthread_mutex_t lock; /* protects all members below */
-    /* the counts that were read last, for use while the lock of their owner is not free */
+    /* counts that were read last; they are used while the lock of the counts' owner is not free */
     struct kd_sessions_counts sessions_counts;
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts playgrounds_counts;

@@ -23,7 +23,7 @@ struct kd_job_whole {
     struct kd_job *job; /* a counted reference */
     struct kd_server *server;
     char client[KD_CLIENT];
-    struct kd_job_whole *next; /* next cube in the server's list */
+    struct kd_job_whole *next; /* next cube in the server's list of cubes that are being downloaded */
     size_t held;               /* bytes that this archive has reserved in the budget of answers */
     struct kd_gather_source source;
     struct kd_gather gather;

@@ -15,7 +15,7 @@
 #define LAG_S 0.1
 #define BEATS 30.    /* number of beats per second */
 #define RATE_MS 500. /* period in ms over which the achieved rate is measured */
-#define FEW 64       /* with up to this number of bodies, a sub-step takes a microsecond or two */
+#define FEW 64       /* number of bodies up to which a sub-step takes only a microsecond or two */
 #define PIECES 16    /* number of sub-steps between two reads of the clock, if there are few bodies */
 
 /* Data that a slice needs; they are read at its start. */

@@ -11,7 +11,7 @@
 #define BRIEF_LANES 2
 /* Minimum time in ms between two searches for missing kernels of pixels; a search takes about a millisecond. */
 #define AHEAD_MS 1000.0
-#define LARGE 32 /* a picture that needs less than 1/LARGE of the memory is not counted */
+#define LARGE 32 /* a picture that needs less than 1/LARGE of the memory counts as needing none */
 
 /* The functions below access the queue's members. They are called with the lock held, unless their comment says
  * otherwise. */

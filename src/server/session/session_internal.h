@@ -41,9 +41,9 @@ struct kd_session {
     unsigned encoding;
     bool adding; /* true while the latest frame is encoded in another format */
     struct kd_live_frame *latest;
-    /* exposed_ms: time when the latest frame was rendered; exposure: its exposure in stops */
+    /* exposed_ms: time when the latest frame was rendered; exposure: exposure of that frame in stops */
     double exposed_ms, exposure;
-    unsigned exposed_revision; /* revision of the scene in that frame; 0 if there is no such frame */
+    unsigned exposed_revision; /* revision of the scene in the frame rendered at exposed_ms; 0: none */
     /* shown_ms: time when the latest frame was published; interval_ms: smoothed time between frames */
     double shown_ms, interval_ms;
     enum kd_status failed; /* status of the latest render, with its error in `error`; a patch clears it */
