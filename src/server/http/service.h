@@ -84,8 +84,9 @@ struct kd_server {
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    struct kd_scheduler *rays;      /* scheduler of requests for rays */
-    struct kd_scheduler *scheduler; /* scheduler of all other tasks */
+    struct kd_scheduler *rays; /* scheduler of requests for rays */
+    struct kd_scheduler
+        *scheduler; /* scheduler of all other tasks, such as orbits, long quantities and checks of jobs */
     /* callback that returns the client's quota; NULL: device time is not limited */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client);
     struct kd_sessions *sessions;

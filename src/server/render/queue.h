@@ -55,6 +55,7 @@ enum kd_render_stage {
     KD_RENDER_WORKS_IN_LANE,
 };
 
+/* State of the kernels that a picture needs. */
 enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
