@@ -7,8 +7,8 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads a number of at least one digit and moves *at past it. A number that exceeds 64 bits becomes the largest one
- * of 64 bits. */
+/* Reads a number of at least one digit and moves *at past it. A number that does not fit into 64 bits becomes
+ * UINT64_MAX. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);

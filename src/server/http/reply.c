@@ -179,7 +179,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
                             server->cross_site || request->link.on ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    /* so that caches use the answer only for requests with the same token */
+    /* with Vary, caches use the answer only for requests with the same token */
     if (server->access && !request->link.on)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);

@@ -101,7 +101,7 @@ struct kd_render_job {
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     enum kd_render_kernels kernels;
-    struct kd_compilation *compilation; /* kernels that the job lacks, and that are being compiled or wait for that */
+    struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled or wait to be compiled */
     /* Kernels that turned out to be missing after the job had started. When they are compiled, the job starts again. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels for explaining the pixels of `settled` */

@@ -186,7 +186,7 @@ void kd_live_abandon(struct kd_request *request)
 struct stream {
     struct kd_viewer viewer; /* must be first: callbacks cast its address to this struct */
     enum { MULTIPART, BINARY, EVENTS } form;
-    struct kd_live_frame *frame; /* the frame that is being sent */
+    struct kd_live_frame *frame; /* the frame that is being sent to the client */
     char before[64], next[96];
     struct part {
         const char *data;
