@@ -33,8 +33,8 @@ struct job {
     struct kd_integral_run run;
     struct kd_render_job picture; /* job in the render queue; valid while `stage` is RENDERS */
     struct kd_buffer text;
-    double planned_ms; /* planned time of all pictures up to the present one, in ms */
-    /* the first picture of each size, in the form in which begin() has planned it */
+    double planned_ms; /* total planned time of the pictures up to the present one, in ms */
+    /* for each size of pictures: the first picture of that size, as begin() has planned it */
     struct {
         struct kd_scene scene;
         struct kd_plan plan;

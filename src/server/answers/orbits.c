@@ -39,7 +39,7 @@ struct kd_orbits_job {
     enum { READING, RUNNING } state;
 
     pthread_mutex_t lock;       /* protects all members below */
-    struct MHD_Connection *mhd; /* NULL after the request was closed */
+    struct MHD_Connection *mhd; /* connection of the request; NULL after the request was closed */
     int socket;
     bool suspended, full, finished;
     struct kd_buffer out;

@@ -15,7 +15,7 @@ struct kd_rays_job {
     struct kd_rays_request request;
     bool npy; /* true if the body is an NPY array */
     /* The members up to trace_ms are results, in addition to those of the task. */
-    bool malformed; /* true if KD_EINVAL means that the body is not JSON */
+    bool malformed; /* true if a status KD_EINVAL means that the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;
     /* The following members are private to the job. */

@@ -87,7 +87,7 @@ void kd_session_drop(struct kd_session *session); /* cancels the frame that is b
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes the viewers that have news */
 
-/* From here on the functions are in kinds.c, and concern the encodings of a frame. This one chooses the first
+/* The functions from here on are in kinds.c, and concern the encodings of a frame. The first function chooses the first
  * encoding of the frame, from those that the waiting viewers accept. */
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
 /* Returns the frame's file in the encoding for this viewer; NULL if it is not encoded yet. */
