@@ -24,7 +24,7 @@ static inline bool kd_clock_lock(pthread_mutex_t *lock, double ms)
     long long ns = t.tv_nsec + (long long)(ms * 1e6);
     t.tv_sec += (time_t)(ns / 1000000000);
     t.tv_nsec = (long)(ns % 1000000000);
-#ifdef __SANITIZE_THREAD__ /* because gcc's thread sanitizer does not intercept pthread_mutex_clocklock */
+#ifdef __SANITIZE_THREAD__ /* gcc's thread sanitizer does not intercept pthread_mutex_clocklock */
     __tsan_mutex_pre_lock(lock, __tsan_mutex_try_lock);
     const bool locked = !pthread_mutex_clocklock(lock, CLOCK_MONOTONIC, &t);
     __tsan_mutex_post_lock(lock, __tsan_mutex_try_lock | (locked ? 0 : __tsan_mutex_try_lock_failed), 0);

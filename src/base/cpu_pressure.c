@@ -41,6 +41,6 @@ double kd_cpu_pressure_share(const struct kd_cpu_pressure *since)
 {
     struct kd_cpu_pressure now = kd_cpu_pressure_now();
     double ran = now.ran_ns - since->ran_ns, waited = now.waited_ns - since->waited_ns;
-    /* a negative difference means that threads have ended since */
+    /* a negative difference means that some threads have ended since the earlier reading */
     return ran > 0 && waited > 0 ? ran / (ran + waited) : 1;
 }

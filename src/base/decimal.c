@@ -10,12 +10,13 @@
 /* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. k is K_MIN to K_MAX. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* number of 32-bit words: enough for 10^324 (1077 bits), and leaves 183 bits of 2^1152/10^292 */
+/* number of 32-bit words: enough for 10^324 (1077 bits), and for 2^1152, whose quotient by 10^292 keeps 183 bits */
+#define WORDS 38
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
 
-struct big { uint32_t word[WORDS]; /* least significant word first */ };
+struct big { uint32_t word[WORDS]; /* the least significant word is word[0] */ };
 
 static void multiply_by_ten(struct big *n)
 {

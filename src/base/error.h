@@ -13,7 +13,7 @@ enum kd_status {
     KD_ETOOBIG,    /* the input is valid, but too large for this device or this server */
     KD_ENOMEM,     /* the host or the device has no memory left */
     KD_EIO,        /* reading or writing a file or socket failed */
-    KD_EFULL,      /* no room on the disk                                           */
+    KD_EFULL,      /* the disk is full                                           */
     KD_EDEVICE,    /* there is no usable device, or the device failed or missed its deadline */
     KD_EBUSY,      /* the queue is full; retry later */
     KD_EABSENT,    /* a required external program is not installed */
@@ -26,7 +26,7 @@ struct kd_error {
     char pointer[160]; /* RFC 6901 JSON pointer to the offending field; "" if there is none */
     char message[480]; /* one sentence, without a full stop or a line feed */
     unsigned retry_s;  /* only with KD_EBUSY: number of seconds to wait before a retry; 0: unknown */
-}; /* both texts are valid UTF-8; the message has no control characters, not even in quoted input */
+}; /* Both texts are valid UTF-8. The message has no control characters, even where it quotes input. */
 
 /* Fills *error (unless it is NULL) and returns status, so that callers can write `return kd_error_set(...)`. */
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)

@@ -11,7 +11,7 @@ struct work {
     void (*each)(void *user, size_t item);
     void *user;
     _Atomic size_t next;
-    bool yields; /* true if the threads end when other work needs their cores */
+    bool yields; /* true for kd_parallel_idle: the threads end when other work needs their cores */
     pthread_t threads[KD_PARALLEL_THREADS - 1];
     size_t begun;
 };

@@ -186,7 +186,7 @@ static void listen_to(struct kd_program *p)
 static void end_group(const struct kd_program *p)
 {
     kill(-p->pid, SIGKILL);
-    kill(p->pid, SIGKILL); /* because the program may have no process group of its own yet */
+    kill(p->pid, SIGKILL); /* kills the process itself, which may not be in a process group of its own yet */
 }
 
 bool kd_program_over(struct kd_program *p, int *code)

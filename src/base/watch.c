@@ -128,5 +128,5 @@ void kd_watch_slow_lock(void)
         held[n_held - 1].slow = true;
 }
 #else
-typedef int kd_watch_is_off; /* because a translation unit must not be empty (C11, section 6.9) */
+typedef int kd_watch_is_off; /* a translation unit must not be empty (C11, section 6.9) */
 #endif

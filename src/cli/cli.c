@@ -68,7 +68,7 @@ int kd_cli_fail(const struct kd_error *error)
 {
     char line[sizeof error->message + sizeof error->pointer + 8], shown[4 * sizeof line];
     snprintf(line, sizeof line, error->pointer[0] ? "%s (at %s)" : "%s", error->message, error->pointer);
-    /* because a document may contain escape sequences that terminals would execute */
+    /* Escapes the message, because it may quote escape sequences of a document, which terminals would execute. */
     kd_utf8_print(shown, sizeof shown, line);
     if (kd_log_get_format() == KD_LOG_JSON)
         kd_log(KD_LOG_ERROR, "%s", shown);

@@ -212,7 +212,7 @@ static int examine(const char *device)
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);
-    fflush(stdout); /* flushed, so that text on stdout comes before the message on stderr */
+    fflush(stdout); /* so that the text on stdout comes before the message on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

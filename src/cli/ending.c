@@ -21,7 +21,7 @@ static const struct {
 static const char *const unfinished[] = {
     "tmp", "part", "new", "old",
     "bak", NULL
-    /* extensions of temporary and backup files, which are accepted for all formats because the file was or will be
+    /* extensions of temporary and backup files; they are accepted for all formats, because such a file was or will be
      * renamed */
 };
 

@@ -21,7 +21,7 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_command base; /* scene options; with them, the document is the request of a film */
+    struct kd_scene_command base; /* scene options; their document is the request of a film */
     const char *state;
     const struct kd_gather_format *kind; /* format of the film; NULL: only frames are made */
     unsigned rate, samples, first, last; /* first, last: numbers of the first and last frame to render */
@@ -113,7 +113,7 @@ struct work {
     struct arguments *arguments;
     const struct kd_gather_format *kind;
     struct kd_assets assets;
-    struct kd_buffer text; /* text of the request */
+    struct kd_buffer text; /* JSON text of the request */
     struct kd_job_spec spec;
     struct kd_renderer *renderer;
     struct kd_frames frames;

@@ -21,7 +21,7 @@ struct arguments {
     const char *input, *output, *format;
     const struct kd_row_options *rows;
     struct kd_row_texts given;
-    const char *observation;       /* file of observations that are compared with the scene */
+    const char *observation;       /* path of the file with the observations that are compared with the scene */
     struct kd_scene_options scene; /* options of the scene, for integrals that use one */
     const char *device;
 };

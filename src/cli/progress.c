@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define QUIET_S 0.5 /* a render shorter than this, in seconds, shows no bar */
+#define QUIET_S 0.5 /* time in s after which the bar appears */
 #define REDRAW_S 0.1
 #define CELLS 30
 
@@ -24,7 +24,7 @@ static void draw(double fraction, double elapsed)
     memset(bar, '#', (size_t)full);
     bar[CELLS] = 0;
     fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar, 100 * fraction);
-    if (fraction > 0.05) /* before this, estimates of the remaining time are too inaccurate */
+    if (fraction > 0.05) /* for smaller fractions, the estimate of the remaining time is too inaccurate */
         fprintf(stderr, "  %.0f s left", elapsed * (1 - fraction) / fraction);
     fflush(stderr);
 }

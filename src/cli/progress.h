@@ -8,9 +8,9 @@
 #include <stdbool.h>
 
 struct kd_progress {
-    double started, drawn; /* times on the monotonic clock, in s */
+    double started, drawn; /* started: time of the start; drawn: time of the last redraw; in s on the monotonic clock */
     bool terminal, visible;
-    unsigned n, done; /* number of parts; number of parts that are finished */
+    unsigned n, done; /* n: number of parts; done: number of finished parts */
 };
 
 /* Begins work of n parts, such as pictures. From this call on, the first SIGINT or SIGTERM stops the work through

@@ -25,7 +25,7 @@ struct arguments {
     struct kd_row_texts fields;
     /* trace: write the steps of the ray; points: write the points of its path instead of the steps */
     bool trace, points;
-    struct kd_rays_request more; /* the rays given by the options --ray */
+    struct kd_rays_request more; /* the rays that the options --ray give */
 };
 
 static const struct argp_option own[] = {

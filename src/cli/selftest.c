@@ -52,7 +52,7 @@ static bool report(void *user, const struct kd_selftest_row *row)
     else
         print_row(row);
     if (fflush(stdout))
-        kd_cli_stdout_failed(errno); /* reported here, while errno still holds the reason */
+        kd_cli_stdout_failed(errno); /* the failure is reported here, while errno still holds the reason */
     return true;
 }
 

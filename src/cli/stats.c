@@ -19,7 +19,8 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
         else if (!strcmp(field->name, "precision"))
             kd_json_string(json, "precision", kd_precision_name(by->precision));
         else if (!strcmp(field->name, "steps"))
-            kd_json_number(json, "steps", by->steps); /* 0 if the result is in closed form */
+            /* steps is 0 if the result is in closed form */
+            kd_json_number(json, "steps", by->steps);
         else
             kd_row_write(json, field, stats->scene);
     }

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #define ESC "\033"
-/* queries support with a picture of one pixel, which the terminal does not store */
+/* queries support by sending a picture of one pixel, which the terminal does not store */
 #define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\"
 #define KITTY_ANSWER ESC "_Gi=31;OK" ESC "\\"
 #define PIXELS_QUERY ESC "[14t" /* the terminal answers with the size of its text area: ESC [ 4 ; HEIGHT ; WIDTH t */

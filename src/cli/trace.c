@@ -177,7 +177,7 @@ enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_b
         KD_HOLE_MORE(MORE, )
 #undef MORE
             { "inclination_deg", p->inclination_deg },
-        { "r", p->r }, /* infinite, and therefore left out, if the ray comes from infinity */
+        { "r", p->r }, /* if the ray comes from infinity, r is infinite and is left out */
         { "alpha", steps->alpha },
         { "beta", steps->beta },
         { "lambda", trace->motion.lambda },

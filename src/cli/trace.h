@@ -11,7 +11,7 @@ struct kd_described_steps {
     bool points; /* text and CSV: true if they have the points of the path instead of the steps; JSON has both */
     struct kd_ray_motion motion;
     struct kd_ray_path path;
-    struct kd_ray_end end; /* computed in closed form, like motion and path */
+    struct kd_ray_end end; /* end of the ray, computed in closed form, as motion and path are */
     char why[320];
 };
 

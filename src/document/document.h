@@ -51,7 +51,7 @@ enum kd_kind {
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
     KD_KIND_JSON,   /* const cJSON *: any value; the caller reads it while the tree exists; NULL if not given */
 };
-/* which ends of the range are excluded: none, both, the upper one, or the lower one */
+/* the ends of a row's range that are excluded: none, both, the upper end, or the lower end */
 enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW };
 
 struct kd_number_list {
@@ -68,7 +68,7 @@ struct kd_row {
     size_t offset;               /* offset of the field in the struct that is filled */
     double initial, least, most; /* range and default of numbers; `initial` is also the default of a WORD and a BOOL */
     enum kd_open open;
-    double above_0;    /* smallest allowed value above 0, for fields that may also be 0 */
+    double above_0;    /* for fields that may be 0: the smallest allowed value above 0 */
     const char *words; /* "a|b|c" */
     /* number that the word of a REAL stands for: INFINITY or NAN; the word of an INT is stored as 0 */
     double stands;
@@ -177,7 +177,7 @@ enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, co
 enum { KD_RANGE_MOST = 100000 };
 struct kd_range {
     double first, last;
-    size_t count; /* 1 for a single number */
+    size_t count; /* number of numbers; 1: a single number */
 };
 double kd_range_at(const struct kd_range *range, size_t i);
 /* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the result

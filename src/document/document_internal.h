@@ -12,7 +12,7 @@ struct kd_object {
     size_t index;
 };
 
-/* A place in a document: its pointer, and the name for it in messages. */
+/* A place in a document: its JSON pointer, and its name in messages. */
 struct kd_mention { char pointer[sizeof((struct kd_error *)0)->pointer], called[120]; };
 /* place.c: returns the place of a member of the object, or of the object itself if name is NULL. */
 struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *object, const char *name);

@@ -18,7 +18,7 @@ struct kd_long_strings {
     struct {
         size_t start, end;
         bool escapes;
-    } at[32]; /* places of the long strings; when the array is full, further strings stay in the text */
+    } at[32]; /* places of the long strings in the document; when the array is full, further strings stay in the text */
 };
 
 void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length);

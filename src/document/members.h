@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* Returns KD_EINVAL with a message that the item must be as `allowed` says. */
+/* Returns KD_EINVAL with a message that says what the item must be; `allowed` is the end of that sentence. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
 /* Reads a whole number in the range `least` to `most`. */

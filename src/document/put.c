@@ -168,7 +168,7 @@ static double convert(const struct kd_row *row, const struct kd_value *value)
 
 static bool put_text(void *at, size_t room, const char *text)
 {
-    memset(at, 0, room); /* the rest is set to 0, so that equal texts have equal bytes */
+    memset(at, 0, room); /* the rest of the array is set to 0, so that equal texts have equal bytes */
     memcpy(at, text, strlen(text));
     return true;
 }

@@ -8,7 +8,7 @@
 
 /* Items of a JSON array, or of typed text with commas between the items. */
 struct items {
-    const cJSON *item; /* next item of the array; NULL if the items come from typed text */
+    const cJSON *item; /* the next item of the JSON array; NULL if the items come from typed text */
     const char *text;
     size_t n;
     char one[KD_WORD_ROOM];
@@ -71,7 +71,7 @@ static enum kd_status read_numbers(const struct kd_row *row, void *to, struct it
         snprintf(place, sizeof place, "%.130s/%zu", pointer, k);
         if (value.kind != KD_VALUE_NUMBER || !kd_row_holds(row, value.number))
             return kd_row_refuse(row, &value, called, place, error);
-        at[k] = value.number == 0 ? 0 : value.number; /* 0 is stored instead of -0, as in kd_row_put_number */
+        at[k] = value.number == 0 ? 0 : value.number; /* stores 0 instead of -0, as kd_row_put_number does */
     }
     return KD_OK;
 }

@@ -53,7 +53,7 @@ struct kd_text_place kd_text_place_of(const char *text, size_t at)
     for (size_t i = 0; i < at; i++) {
         if (text[i] == '\n')
             place = (struct kd_text_place) { place.line + 1, 1 };
-        else if (((unsigned char)text[i] & 0xc0) != 0x80) /* the byte is not a continuation byte */
+        else if (((unsigned char)text[i] & 0xc0) != 0x80) /* true if the byte starts a character */
             place.column++;
     }
     return place;

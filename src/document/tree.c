@@ -43,7 +43,7 @@ static _Thread_local uint64_t allocations;
 
 static void pause_if_large(uint64_t n)
 {
-    const int kept = errno; /* restored below, because the caller compares errno with ENOMEM */
+    const int kept = errno; /* errno is restored below, because the caller compares it with ENOMEM */
     if (shares && (n >= 65536 || ++allocations % 64 == 0))
         kd_pause();
     errno = kept;
@@ -119,7 +119,7 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes; it must have at most %zu", length, most);
     if (!text)
-        text = ""; /* because adding 0 to a null pointer is undefined in C */
+        text = ""; /* adding 0 to a null pointer is undefined in C */
     kd_scan_skip_mark(&text, &length);
     enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)

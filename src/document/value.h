@@ -6,7 +6,7 @@ enum kd_value_kind { KD_VALUE_NUMBER, KD_VALUE_STRING, KD_VALUE_BOOL, KD_VALUE_N
 
 struct kd_value {
     enum kd_value_kind kind;
-    double number;    /* value of a NUMBER; 0 or 1 for a BOOL */
+    double number;    /* value of a NUMBER; for a BOOL: 0 or 1 */
     const char *text; /* value of a STRING */
 };
 

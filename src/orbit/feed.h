@@ -14,7 +14,7 @@ struct kd_orbit_feed {
     enum kd_orbit_format format;
     enum { KD_FEED_START, KD_FEED_SERIES, KD_FEED_DONE } stage;
     struct kd_orbit_run run;     /* used for one orbit */
-    struct kd_orbit_batch batch; /* used for a list of orbits */
+    struct kd_orbit_batch batch; /* used for many orbits */
     uint64_t told;               /* number of steps done when progress was last written */
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };

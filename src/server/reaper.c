@@ -18,7 +18,7 @@
 static void sleep_a_tick(struct kd_server *server)
 {
     struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
-    /* Not polled during the shutdown: the eventfd stays readable, so poll would always return at once. */
+    /* The eventfd is not polled during the shutdown: it stays readable, so poll would always return at once. */
     if (atomic_load(&server->phase) == KD_SERVING)
         poll(&p, 1, TICK_MS);
     else
@@ -113,7 +113,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* repeated, for requests that have arrived since the phase began */
+        kd_thumbnails_cancel(server->thumbnails); /* repeated for requests that have arrived since this phase began */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }

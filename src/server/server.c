@@ -365,7 +365,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
-    /* Destroyed after the queue, whose last frames refer to sessions. */
+    /* The sessions are destroyed after the queue, whose last frames refer to sessions. */
     kd_sessions_destroy(server->sessions);
     kd_lessons_destroy(server->lessons);
     kd_jobs_destroy(server->jobs);

@@ -93,5 +93,5 @@ int __wrap_unlinkat(int folder, const char *path, int flags)
     return __real_unlinkat(folder, path, flags);
 }
 #else
-typedef int kd_watch_calls_are_off; /* because a translation unit must not be empty (C11, section 6.9) */
+typedef int kd_watch_calls_are_off; /* a translation unit must not be empty (C11, section 6.9) */
 #endif

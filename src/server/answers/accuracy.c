@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 struct reading {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_buffer json;
 };
 

@@ -82,7 +82,7 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
 
 /* State of an upload. A worker hashes and writes the asset. */
 struct putting {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_asset_put put;
 };
 
@@ -194,7 +194,7 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Writes the hash of the operator's photograph of the sky, or null if there is none. There is also none if a client
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. Also writes null if a client
  * uploaded the same file before the server started, and has deleted it since. */
 static void write_sky(struct kd_json *json, const struct kd_server *server)
 {
@@ -286,7 +286,7 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
 
 /* State of a deletion. A worker deletes the files, so that they are gone when the request is answered. */
 struct removing {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_asset *asset;
     bool was;
 };

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE ", " KD_NPZ_TYPE
-/* estimated time in ns of one product on one core; there is one product for each baseline and each pixel (or each
+/* estimated time in ns of one product on one core; there is one product for each pair of a baseline and a pixel (or an
  * image order of a pixel) */
 #define NS_A_PRODUCT 1.2
 /* bytes of an answer per row, including the text of the numbers */
@@ -25,16 +25,16 @@ static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
 static const char *const endings[] = { "json", "csv", "npy", "npz", "uvfits" };
 
 struct job {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_integral_request request;
     enum kd_integral_format format;
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* job in the render queue, while its stage is RENDERS */
+    struct kd_render_job picture; /* job in the render queue; valid while `stage` is RENDERS */
     struct kd_buffer text;
-    double planned_ms; /* planned time of all pictures up to the present one, in ms */
-    /* the first picture of each size, in the form in which begin() has planned it */
+    double planned_ms; /* total planned time of the pictures up to the present one, in ms */
+    /* for each size of pictures: the first picture of that size, as begin() has planned it */
     struct {
         struct kd_scene scene;
         struct kd_plan plan;
@@ -141,8 +141,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     else
         KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
-    /* begin() has estimated the cost of all sets from the first picture. But a set may change the cost of its
-     * pictures. */
+    /* begin() has estimated the total cost from the cost of the first picture. But a set may make its pictures more
+     * expensive, so the total is checked again here. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
             kd_error_set(error, KD_ETOOBIG,

@@ -27,7 +27,7 @@ static const char *const types[] = { [KD_ORBIT_JSON] = KD_JSON_TYPE,
 
 /* A job with two owners, the request and the scheduler. The owner that releases the job last frees it. */
 struct kd_orbits_job {
-    struct kd_scheduler_job scheduled; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be first: callbacks cast its address to this struct */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
@@ -39,7 +39,7 @@ struct kd_orbits_job {
     enum { READING, RUNNING } state;
 
     pthread_mutex_t lock;       /* protects all members below */
-    struct MHD_Connection *mhd; /* NULL after the request was closed */
+    struct MHD_Connection *mhd; /* connection of the request; NULL after the request was closed */
     int socket;
     bool suspended, full, finished;
     struct kd_buffer out;
@@ -221,7 +221,7 @@ static void say_in_stream(struct kd_orbits_job *job)
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_orbits_job *job = cls;
-    (void)position; /* not needed, because the library reads the bytes in order */
+    (void)position; /* the position is not needed, because the library reads the bytes in order */
     pthread_mutex_lock(&job->lock);
     if (job->finished && job->status)
         say_in_stream(job);
@@ -315,7 +315,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* suspended first, because the job may be done before the push returns */
+    /* The connection is suspended first, because the job may be done before the push returns. */
     MHD_suspend_connection(request->mhd);
     kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;

@@ -19,7 +19,7 @@
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
 
 struct job {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_quantity_run run;
     enum form form;
     struct kd_buffer text;

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 
 struct sweep {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_job_spec spec;
     char preset[32];
     struct kd_cost cost;

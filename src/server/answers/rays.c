@@ -9,12 +9,12 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_NPY_TYPE
-/* size of the parts in which the answer is generated; each takes some tenths of a millisecond */
+/* bytes of a part of the answer; generating a part takes some tenths of a millisecond */
 #define BLOCK (64u << 10)
 #define TEXT_PER_RAY 180 /* estimated bytes of a ray without crossings, as text; used for the answer's deadline */
 #define TEXT_PER_CROSSING 110
 
-/* The answer while it is being sent. If the client reads slowly, it outlives the request. */
+/* State of an answer that is being sent. If the client reads slowly, this state outlives the request. */
 struct outgoing {
     struct kd_server *server;
     char client[KD_CLIENT];
@@ -26,7 +26,7 @@ struct outgoing {
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct outgoing *out = cls;
-    (void)position; /* not needed, because the library reads the bytes in order */
+    (void)position; /* the position is not needed, because the library reads the bytes in order */
     size_t n = kd_rays_stream_read(&out->stream, to, size);
     return n ? (ssize_t)n : MHD_CONTENT_READER_END_OF_STREAM;
 }

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE 2048 /* number of rays in a slice; they take some 18 to 25 ms on one core */
+#define SLICE 2048 /* number of rays in a slice; a slice takes some 18 to 25 ms on one core */
 
-/* Number of rays in one call on the device. It is FIRST_TURN for the first call, and then as many as take TURN_MS.
- * The time for a ray differs by a factor of a million between the fastest engine on a GPU and the slowest engine on
- * one core. */
+/* FIRST_TURN is the number of rays in the first call on the device. Each later call gets as many rays as take about
+ * TURN_MS. The number adapts because the time for a ray differs by a factor of a million between the fastest engine on
+ * a GPU and the slowest engine on one core. */
 #define FIRST_TURN 256
 #define TURN_MS 40.0
 
@@ -50,7 +50,7 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
                                           answer->crossings + first * answer->params.orders, answer->ends + first,
                                           progress, progress_user, &device->error);
-    job->traced += status ? 0 : n; /* counted, so that these rays are not traced again if the device is reopened */
+    job->traced += status ? 0 : n; /* these rays are not traced again if the device is reopened */
     job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
     device->more = job->traced < answer->n;
     /* On a device without double precision, rays that need it fail. That is not a failure of the device itself. */

@@ -10,12 +10,12 @@
 #include "server/render/queue.h"
 
 struct kd_rays_job {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     /* initialised when the job is made; the members of a JSON body are merged into it */
     struct kd_rays_request request;
     bool npy; /* true if the body is an NPY array */
-    /* results, besides those of the task */
-    bool malformed; /* true if KD_EINVAL means that the body is not JSON */
+    /* The members up to trace_ms are results, in addition to those of the task. */
+    bool malformed; /* true if a status KD_EINVAL means that the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;
     /* The following members are private to the job. */

@@ -30,8 +30,9 @@ struct kd_asset_store {
     pthread_mutex_t lock; /* protects all members below; it is never held while a file is written or removed */
     int folder;           /* descriptor of the folder; -1: there is none */
     struct kd_asset *first;
-    uint64_t checking;      /* memory in bytes that the checks in progress use */
-    _Atomic unsigned count; /* count and bytes are changed only with the lock held, but are also read without it */
+    uint64_t checking; /* memory in bytes that the checks in progress use */
+    /* count and bytes are changed only with the lock held, but are also read without the lock */
+    _Atomic unsigned count;
     _Atomic uint64_t bytes;
 };
 

@@ -16,7 +16,8 @@
 #include <string.h>
 #include <time.h>
 
-enum { STRETCH = 1 << 20 }; /* number of bytes that are hashed between two looks at the clock; this takes some 3 ms */
+/* number of bytes that are hashed between two reads of the clock; hashing them takes some 3 ms */
+enum { STRETCH = 1 << 20 };
 
 struct kd_asset_putting {
     struct kd_asset_store *store;

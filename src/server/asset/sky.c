@@ -16,7 +16,8 @@ static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *
     enum kd_asset_progress how = KD_ASSET_MORE;
     enum kd_status status =
         kd_asset_put_begin(&put, store, file->data ? file->data : (const uint8_t *)"", file->size, "--sky", error);
-    put.any_age = true; /* permits eviction, because after a restart all assets count as just used */
+    /* Permits eviction of recently used assets, because after a restart all assets count as just used. */
+    put.any_age = true;
     while (!status && how != KD_ASSET_OVER)
         status = kd_asset_put_go_on(&put, INFINITY, &how, error);
     kd_asset_put_finish(&put);

@@ -128,7 +128,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        /* removes the files of an asset whose removal the end of the server has interrupted */
+        /* removes the files of an asset whose removal was interrupted when the server ended */
         if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0)
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
@@ -155,7 +155,8 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* deleted here, so that the files are gone before the same bytes can be stored again */
+    /* the files are deleted here, so that they are gone before the same bytes can be stored again */
+    if (store->folder >= 0)
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);

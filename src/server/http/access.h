@@ -10,7 +10,8 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-/* query parameter of pages (route.h); the server answers it by a cookie with the same token */
+/* query parameter with the access token in the address of a page (route.h); the server's answer sets a cookie with the
+ * same token */
 #define KD_ACCESS_QUERY "access"
 #define KD_ACCESS_TOKEN_MIN 16 /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
@@ -24,8 +25,8 @@ struct kd_access;
 struct kd_request;
 struct kd_route;
 
-/* Roles. view: requests that store nothing on the server except a pupil's answer. render: all requests. link: the
- * entry is no token but a key that signs addresses (link.h); anybody who has a signed address may use it. */
+/* Roles. view: requests that store nothing on the server except a pupil's answer. render: all requests. link: the entry
+ * is not a token, but a key that signs addresses (link.h); anybody who has a signed address may use it. */
 #define KD_ROLES(X) X(VIEW, "view") X(RENDER, "render") X(LINK, "link")
 enum kd_role {
 #define KD_ROLE_ENUM(name, word) KD_ROLE_##name,

@@ -25,8 +25,8 @@ struct kd_allowance {
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
 /* Subtracts device time that a client's work has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
-/* Number of milliseconds until the bucket contains at least 1 ms, if owed_ms is subtracted as well; 0 if it does so
- * now. */
+/* Number of milliseconds until the bucket contains at least 1 ms, if owed_ms is subtracted as well; 0 if the bucket
+ * contains that much now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
 /* Quota for display and headers, in seconds. seconds: device time that a client may use in a minute. left_s: what is
  * left of it after owed_ms is subtracted. whole_in_s: time until the bucket is full. Valid only if there is a limit. */

@@ -13,7 +13,7 @@ struct place {
     double tries, at_ms; /* tries: number of tries left at the time at_ms; at_ms 0: the entry is unused */
     uint64_t wrong[REMEMBERED];
     const void *right[KD_GUESSES_NAMES];
-    unsigned n_wrong, n_right; /* number of tokens that were ever stored in each of the two ring buffers */
+    unsigned n_wrong, n_right; /* for each of the two ring buffers: number of tokens that were ever stored in it */
 };
 
 struct kd_auth_throttle {

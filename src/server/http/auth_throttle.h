@@ -27,8 +27,8 @@ void kd_auth_throttle_destroy(struct kd_auth_throttle *throttle); /* accepts NUL
  * otherwise the number of seconds until this address may present a new token. */
 unsigned kd_auth_throttle_right(struct kd_auth_throttle *throttle, const char *client, const void *whose,
                                 double now_ms);
-/* Reports a wrong token by its hash. Returns 0 if the client gets the usual refusal. This is so if this address may
- * try more tokens, or if the same wrong token was counted before. Otherwise returns the number of seconds until this
+/* Reports a wrong token by its hash. Returns 0 if the client gets the usual refusal, because this address may try more
+ * tokens, or because the same wrong token was counted before. Otherwise returns the number of seconds until this
  * address may present another token. */
 unsigned kd_auth_throttle_wrong(struct kd_auth_throttle *throttle, const char *client, uint64_t hash, double now_ms);
 

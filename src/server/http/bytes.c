@@ -68,7 +68,7 @@ enum kd_status kd_bytes_take(struct kd_bytes *b, const char *client, size_t n, s
     pthread_mutex_lock(&b->lock);
     size_t own = find_or_make(b, client)->bytes;
     const struct kd_bytes_params *p = &b->params;
-    /* The same fraction of the reserve, share / max, is available to one client. */
+    /* One client may use the fraction share / max of the reserve, just as of `max`. */
     double room = size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1;
     *quota = (double)(own + n) > room * (double)p->share && !(p->lone && !own);
     bool fits = !*quota && ((double)(b->bytes + n) <= room * (double)p->max || (p->lone && !b->bytes));

@@ -15,20 +15,24 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-/* longer than libmicrohttpd's idle timeout, so that it ends only connections that send single bytes */
+/* deadline in ms of an idle connection; it is longer than libmicrohttpd's idle timeout, so it ends only connections
+ * that send single bytes */
 #define IDLE_MS 60e3
-#define CROWDED_MS 2e3 /* time in which a connection beyond the limit must send its header */
-#define REPLY_MS 30e3  /* time in which a client must read an answer; for large answers, BYTES_PER_MS adds to it */
+#define CROWDED_MS 2e3 /* time in ms in which a connection beyond the limit must send its header */
+/* time in ms in which a client must read an answer; large answers get more time (BYTES_PER_MS) */
+#define REPLY_MS 30e3
 /* an answer gets one more millisecond for this number of bytes: 32 kB/s, the speed of a poor mobile connection */
 #define BYTES_PER_MS 32
 
-#define STALL_MS 2e3 /* a client that reads at all reads some bytes within this time, even over a slow connection */
-/* time for which a socket is drained: enough for several round trips and a few MiB. If the client sends more, the
- * connection is reset. */
+/* time in ms within which a client that reads at all reads some bytes, even over a slow connection */
+#define STALL_MS 2e3
+/* LINGER_MS: time for which a socket is drained, which is enough for several round trips and a few MiB. LINGER_BYTES:
+ * limit of the drained bytes; if the client sends more, the connection is reset. */
 #define LINGER_MS 2e3
 #define LINGER_BYTES ((size_t)16 << 20)
 #define LINGERING 64 /* maximum number of sockets that are drained at a time */
-#define SILENT 32    /* maximum number of connections that have not sent anything, while all others are in use */
+/* silent connections are closed if there are more connections than those of kd_connections_most and this number */
+#define SILENT 32
 
 struct kd_connection {
     struct kd_connection *previous, *next;

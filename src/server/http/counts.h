@@ -6,13 +6,14 @@
 
 struct kd_sessions_counts {
     unsigned sessions, viewers;
-    uint64_t frames, bytes; /* totals since the start; bytes counts each frame once, however many clients receive it */
+    /* totals since the server's start; bytes counts each frame once, however many clients receive it */
+    uint64_t frames, bytes;
 };
 
 struct kd_playground_sessions_counts {
     unsigned open, watchers;
     uint64_t bytes;         /* upper bound of the memory of all playgrounds, in bytes */
-    uint64_t steps, events; /* totals since the start; steps counts the sub-steps of running playgrounds */
+    uint64_t steps, events; /* totals since the server's start; steps counts the sub-steps of running playgrounds */
 };
 
 struct kd_jobs_counts {

@@ -78,7 +78,7 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    /* no effect if the socket is not watched yet */
+    /* this call has no effect if the socket is not watched yet */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     /* On failure the library has already closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)

@@ -1,6 +1,6 @@
-/* Accepts connections on the listening socket, on a thread of its own. It peeks at the first bytes of each
- * connection, and hands the connection to one of two libmicrohttpd daemons. One serves the health routes, the other
- * everything else. Therefore /healthz, /readyz and /metrics are delayed neither by a busy HTTP thread nor by an
+/* Accepts connections on the listening socket, on a thread of its own. It peeks at the first bytes of each connection,
+ * and hands the connection to one of two libmicrohttpd daemons. One daemon serves the health routes, and the other
+ * serves all other routes. Therefore /healthz, /readyz and /metrics are delayed neither by a busy HTTP thread nor by an
  * exhausted limit of connections, although all routes share one port. */
 #ifndef KD_SERVER_HTTP_FRONT_H
 #define KD_SERVER_HTTP_FRONT_H

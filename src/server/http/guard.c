@@ -42,7 +42,7 @@ static size_t trim(const char *value, size_t size)
     union {
         const char *in;
         char *out;
-    } text = { value }; /* the library's own copy, which ends with a NUL */
+    } text = { value }; /* `value` points to the library's own copy, which ends with a NUL */
     const size_t given = size;
     while (size && (value[size - 1] == ' ' || value[size - 1] == '\t'))
         size--;

@@ -21,10 +21,11 @@ struct place {
 _Static_assert(sizeof(struct place) == 24, "places in the file have no padding");
 
 struct kd_link_budgets {
-    pthread_mutex_t lock;  /* guards the entries; held for some 10 us at a time */
-    pthread_mutex_t write; /* held while an entry is written, so that an older state never overwrites a newer one */
-    int fd;                /* -1: no file */
-    bool failed;           /* true if a write failure was already logged; guarded by `write` */
+    pthread_mutex_t lock; /* guards the entries; held for some 10 us at a time */
+    /* held while an entry is written to the file, so that an older state never overwrites a newer one */
+    pthread_mutex_t write;
+    int fd;      /* -1: no file */
+    bool failed; /* true if a write failure was already logged; guarded by `write` */
     struct place places[KD_LINK_BUDGETS];
 };
 

@@ -1,4 +1,4 @@
-/* The host names by which a server can be reached that listens on all addresses. */
+/* Host names by which clients can reach a server that listens on all addresses. */
 #ifndef KD_SERVER_HTTP_NAMES_H
 #define KD_SERVER_HTTP_NAMES_H
 

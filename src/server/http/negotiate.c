@@ -43,7 +43,7 @@ static struct span take(const char **rest, char separator)
     return trim((struct span) { start, (size_t)(p - start) });
 }
 
-/* Parses a weight (RFC 9110 12.4.2), such as 0, 0.5 or 1.000, in thousandths. Returns -1 if it is malformed. */
+/* Parses a weight (RFC 9110 12.4.2), such as 0, 0.5 or 1.000. Returns it in thousandths, or -1 if it is malformed. */
 static int weight(struct span s)
 {
     if (!s.size || s.size > 5 || (s.at[0] != '0' && s.at[0] != '1') || (s.size > 1 && s.at[1] != '.'))

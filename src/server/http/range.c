@@ -7,8 +7,8 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads a number of at least one digit and moves *at past it. A number that exceeds 64 bits becomes the largest one
- * of 64 bits. */
+/* Reads a number of at least one digit and moves *at past it. A number that does not fit into 64 bits becomes
+ * UINT64_MAX. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);
@@ -49,7 +49,7 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* RFC 9110 defines no Content-Range for this failure on an empty file */
+    if (spec.suffix && spec.last && !size) /* for an empty file, RFC 9110 defines no Content-Range of this failure */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     union {
         const void *in;
         void *out;
-    } bytes = { data }; /* libmicrohttpd does not write to these bytes */
+    } bytes = { data }; /* removes const, which is safe because libmicrohttpd does not write to these bytes */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
     if (response && type)
         MHD_add_response_header(response, "Content-Type", type);
@@ -138,7 +138,7 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
 {
     char text[80];
     const char *caching = MHD_get_response_header(response, "Cache-Control");
-    /* not in public answers, because a shared cache would send one client's quota to all clients */
+    /* public answers have no quota, because a shared cache would send one client's quota to all clients */
     if (caching && !strncmp(caching, "public", 6))
         return;
     if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
@@ -179,7 +179,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
                             server->cross_site || request->link.on ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    /* so that caches use the answer only for requests with the same token */
+    /* with Vary, caches use the answer only for requests with the same token */
     if (server->access && !request->link.on)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);

@@ -37,7 +37,7 @@ enum kd_takes {
     KD_TAKES_HAND,   /* a pupil's answer */
     KD_TAKES_STRIKE, /* a ringdown in the body, or no body */
     KD_TAKES_PATH,
-    KD_TAKES_PARTICLES,  /* a choice of particles and quantities, in the query */
+    KD_TAKES_PARTICLES,  /* names of particles and quantities, in the query */
     KD_TAKES_PLAYGROUND, /* a playground's document, or changes to one */
     KD_TAKES_STEP,
     KD_TAKES_TICK,     /* names of lists, and numbers of entries, in the query */

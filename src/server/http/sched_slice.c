@@ -27,5 +27,5 @@ void kd_sched_short_slices(void)
     struct attributes a = {
         .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
     };
-    syscall(SYS_sched_setattr, 0, &a, 0); /* the result is ignored, because this is only an optimisation */
+    syscall(SYS_sched_setattr, 0, &a, 0); /* a failure is ignored, because the short slice is only an optimisation */
 }

@@ -84,9 +84,10 @@ struct kd_server {
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
-    struct kd_scheduler *rays;      /* scheduler of requests for rays */
-    struct kd_scheduler *scheduler; /* scheduler of orbits, long quantities, paths of sessions and checks of jobs */
-    /* returns the client's quota; NULL: device time is not limited */
+    struct kd_scheduler *rays; /* scheduler of requests for rays */
+    struct kd_scheduler
+        *scheduler; /* scheduler of all other tasks, such as orbits, long quantities and checks of jobs */
+    /* callback that returns the client's quota; NULL: device time is not limited */
     struct kd_quota (*quota)(const struct kd_server *server, const char *client);
     struct kd_sessions *sessions;
     struct kd_lessons *lessons;
@@ -126,7 +127,7 @@ struct kd_server {
      * answer */
     _Atomic bool ended;
     pthread_mutex_t lock; /* protects all members below */
-    /* the counts that were read last, for use while the lock of their owner is not free */
+    /* counts that were read last; they are used while the lock of the counts' owner is not free */
     struct kd_sessions_counts sessions_counts;
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts playgrounds_counts;

@@ -53,15 +53,16 @@ struct kd_claim {
 };
 
 struct kd_share_flow { /* all work of one class of one client */
-    /* paid: virtual time that was charged to the flow. now: virtual time that each work of the flow would have if
-     * all ran concurrently. */
+    /* paid: virtual time that was charged to the flow. now: virtual time that each work of the flow would have reached
+     * if all of the flow's work ran concurrently. */
     double paid, now;
     unsigned claims;
     struct kd_claim *first; /* the flow's work, in order of arrival */
 };
 struct kd_share_client {
     char name[KD_CLIENT];
-    double paid, now; /* now: virtual time of the flow that is running */
+    /* paid: virtual time that was charged to the client; now: virtual time of its flow that is running */
+    double paid, now;
     unsigned claims;
     struct kd_share_flow flows[KD_N_CLASSES];
 };

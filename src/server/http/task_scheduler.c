@@ -12,7 +12,7 @@
 
 #define WORKERS_MAX 16
 #define THREADS_MAX (4 * WORKERS_MAX) /* maximum number of threads, including threads whose slice is suspended */
-#define PIECE_MS 15.                  /* time in ms for which a slice runs before other jobs go first */
+#define PIECE_MS 15.                  /* time in ms after which a slice is suspended if other jobs wait */
 
 /* A suspended slice. The struct is on the stack of the slice's thread. It is listed among the jobs, and the slice is
  * resumed when it is the first in the list. */
@@ -87,7 +87,7 @@ static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, b
     job->next = scheduler->parked;
     scheduler->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&scheduler->changed); /* because a worker that sleeps must wake up earlier than planned */
+        pthread_cond_signal(&scheduler->changed); /* a sleeping worker may have to wake up earlier than planned */
 }
 
 /* Resumes the jobs whose parking time is over. Returns the earliest end of the remaining parking times, or INFINITY. */
@@ -157,7 +157,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* cleared, because `done` may free the job, and must not be suspended */
+    under_way = NULL; /* `done`, which may free the job, must not be suspended */
     stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;
@@ -236,7 +236,7 @@ static void pause_turn(struct kd_scheduler *scheduler)
     pthread_cond_signal(&scheduler->changed);
     while (me.place.listed && !scheduler->closing)
         pthread_cond_wait(&me.resumed, &scheduler->lock);
-    if (me.place.listed) { /* still in the list: at shutdown no worker resumes suspended slices */
+    if (me.place.listed) { /* at shutdown no worker resumes this slice, so it is still in the list */
         take_out(scheduler, &me.place);
         scheduler->busy++;
     }

@@ -14,7 +14,7 @@
 
 /* A task that moves a film's playground to the next frame. */
 struct stride {
-    struct kd_scheduler_job scheduled; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be first: callbacks cast its address to this struct */
     struct kd_job *job;                /* a counted reference */
     unsigned to;
     bool under_way; /* `run` has begun */
@@ -130,7 +130,7 @@ static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_erro
     job->film.dynamic = NULL;
     job->film.to = frame;
     job->film.moving = true;
-    kd_job_strike(job); /* counts an attempt, because moving the bodies may crash the server, as rendering may */
+    kd_job_strike(job); /* counts an attempt, because moving the bodies may crash the server, just as rendering may */
     job->references++;
     kd_scheduler_push(scheduler, &s->scheduled);
     return KD_OK;

@@ -40,7 +40,8 @@ enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data
 /* Publishes the film, so that requests can open it. Returns KD_EFULL if the files of all jobs would exceed their
  * limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Deletes a film that was not published, and releases the claim. Does nothing if there is neither. */
+/* Deletes a film that was not published, and releases the claim. Does nothing if there is neither such a film nor a
+ * claim. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
 /* Finds films that were made before a restart. Call this before any other thread uses the job. */

@@ -39,8 +39,7 @@ struct kd_job_film {
 
 /* The common exposure of all frames; it is measured before the first frame is rendered (job/exposure.h). */
 struct kd_job_exposure {
-    /* n: number of pictures to measure, 0 if the exposure is not measured; done: number of pictures that are
-     * measured */
+    /* n: number of pictures to measure; 0: the exposure is not measured. done: number of pictures measured so far. */
     unsigned n, done;
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
     double stops[KD_JOB_EXPOSURE_FRAMES];
@@ -80,8 +79,8 @@ struct kd_job {
     unsigned revision;      /* incremented when the job's status changes */
     char client[KD_CLIENT]; /* the client that requested the job; "" after a restart, because it is then unknown */
     bool listed;
-    bool creating;  /* true while the job's files are being created; no frame starts */
-    bool unwritten; /* true if the record has changed since it was last written to disk */
+    bool creating;  /* true while the job's files are being created; no frame starts during that time */
+    bool unwritten; /* true if the record has changed since its last write to disk */
     bool keeping;   /* true until the record is on disk; no frame starts before that */
     bool measured;  /* true if `keeping` was set because the exposure has been measured */
     bool forgotten; /* true if the job's request was deleted from disk */

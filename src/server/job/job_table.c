@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 struct table {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_job *job;  /* a counted reference */
     struct kd_job_status status;
     const struct kd_table_format *format;

@@ -73,7 +73,7 @@ static void unref(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Called without the lock, which it takes itself, and by one thread at a time. */
+/* Takes the lock itself, so it is called without the lock. One thread at a time. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);
@@ -86,7 +86,7 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
-    struct kd_job **link = &all->gone; /* searched again, because other jobs may have been added before this one */
+    struct kd_job **link = &all->gone; /* the job is searched again, because others may have been added before it */
     while (*link != job)
         link = &(*link)->link;
     *link = job->link;

@@ -101,7 +101,7 @@ bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 struct kd_job_sight {
     unsigned frame;
     bool finished;         /* true if the frame is finished; kd_job_frame then opens its file */
-    uint32_t rows, height; /* for a frame in progress: number of rendered rows, and number of all rows */
+    uint32_t rows, height; /* for a frame in progress: number of rendered rows, and total number of rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
 /* Deletes a job. After this call the job cannot be found any more, not even after a restart. Its files are deleted
@@ -114,7 +114,7 @@ void kd_job_drop(struct kd_job *job);
 struct kd_job_watcher {
     struct kd_job *job; /* a reference */
     struct MHD_Connection *mhd;
-    bool by_frame; /* true: the watcher waits for the frame `next`; false: for any change */
+    bool by_frame; /* true: the watcher waits for the frame `next`; false: the watcher waits for any change */
     unsigned next, revision;
     double deadline_ms; /* end of the waiting time, on the clock of kd_clock_ms; INFINITY: no end */
     bool waiting;       /* true while the watcher's connection is suspended */

@@ -21,8 +21,8 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         job->revision++;
         return;
     }
-    /* Discarded. Otherwise, after a restart, frames would exist without an exposure, and the missing frames would be
-     * rendered with another exposure. */
+    /* The measured exposure is discarded, because it is not on disk. If it were used, frames would exist without a
+     * stored exposure after a restart, and the missing frames would be rendered with another exposure. */
     job->record.exposure = NAN;
     job->exposure.done = 0;
     if (kd_job_is_active(job))

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEARTBEAT_MS 15000.0 /* time in ms between two comments in an event stream, which show that it is alive */
+#define HEARTBEAT_MS 15000.0 /* interval in ms of the comments that serve as heartbeats in an event stream */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -106,7 +106,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
 
 /* A request for a job, which workers parse and check. */
 struct draft {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_job_draft draft;
     bool read;
     struct kd_job *job; /* a counted reference to the created job; NULL until there is one */
@@ -191,7 +191,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
 
 /* State of a deletion. A worker deletes the job's files, so that they are gone when the request is answered. */
 struct removing {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     struct kd_job *job;  /* a counted reference */
 };
 
@@ -260,7 +260,7 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
 }
 
 struct events {
-    struct kd_job_watcher watcher; /* must be the first member */
+    struct kd_job_watcher watcher; /* must be first: callbacks cast its address to this struct */
     struct kd_buffer text;         /* text of the event that is being sent */
     size_t at;
     bool over;

@@ -107,7 +107,7 @@ static void push(struct kd_job_render *frame)
         job->began_ms = kd_clock_ms();
     job->fraction = 0;
     job->revision++;
-    const bool films = frame->dynamic; /* read before the push, because the queue owns the frame afterwards */
+    const bool films = frame->dynamic; /* read now, because the queue owns the frame after the push */
     kd_render_queue_push(job->all->params.renders, &frame->render);
     /* The bodies move to the next frame while this frame is rendered. An error is reported when the next frame
      * starts. */
@@ -178,7 +178,7 @@ static bool begin(struct kd_job *job)
     if (number == job->frames)
         return false;
     kd_job_strike(job);
-    if (job->keeping) /* waits: the attempt must be on disk before the work begins */
+    if (job->keeping) /* the frame waits, because the attempt must be on disk before the work begins */
         return true;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &dynamic, &error) : KD_OK;
     if (!status && job->spec.every > 0 && !dynamic)

@@ -83,7 +83,7 @@ void kd_job_store_tidy(void)
             continue;
         int folder = kd_job_folder_open(parent, entry->d_name);
         int lock = folder >= 0 && !fstat(folder, &about) && about.st_uid == geteuid() ? take_lock(folder, 0) : -1;
-        if (lock >= 0) { /* the lock was free, so the server that made the folder no longer runs */
+        if (lock >= 0) { /* the lock was free, so the server that created the folder has ended */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
                 kd_log(KD_LOG_INFO, "%s, which a server that has ended left behind, is removed", entry->d_name);
@@ -119,8 +119,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        /* In the other case, another server has just removed the new folder because it looked left over, and a
-         * further attempt is made. */
+        /* EWOULDBLOCK and ENOENT mean that another server has just removed the new folder, because it looked left over.
+         * A further attempt is then made. */
         if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "cannot create a folder for jobs");
     }

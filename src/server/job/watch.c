@@ -50,7 +50,7 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        /* suspended first, because another thread may resume the connection as soon as the lock is released */
+        /* suspended with the lock held: once it is released, another thread may resume the connection */
         MHD_suspend_connection(w->mhd);
     }
     pthread_mutex_unlock(&w->job->all->lock);
@@ -80,7 +80,7 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
-#define ORDER_MS 20.0 /* maximum time in ms of this part of a check of all jobs */
+#define ORDER_MS 20.0 /* maximum time in ms that one check of all jobs spends on the order of frames */
 
 /* Continues, after a restart, to compute the order of a sweep's frames. Called without the lock. */
 static void put_in_order(struct kd_jobs *all)

@@ -44,7 +44,7 @@ struct kd_pupil {
 
 struct kd_lesson {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN], client[KD_CLIENT];
-    double used_ms; /* time of the last request of the teacher */
+    double used_ms; /* time of the teacher's last request */
     char session[KD_SECRET_ID];
     char link[KD_LESSON_SIZE(KD_LESSON_LINK)];   /* the part after # of the teacher's address */
     char about[KD_LESSON_SIZE(KD_LESSON_ABOUT)]; /* description of the picture */
@@ -77,7 +77,7 @@ void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
  * longest. Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
-/* How the lesson is written as JSON. teacher: each pupil's choice is included, and so is the tally, even while the
+/* Options for writing a lesson as JSON. teacher: each pupil's choice is included, and so is the tally, even while the
  * question is open. pupil: the pupil who has sent the request and whose own choice is included; NULL: none. copies:
  * true if the pupil may open a session of his or her own. token: the teacher's token is included. */
 struct kd_lesson_view {

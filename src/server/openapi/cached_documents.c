@@ -19,7 +19,7 @@
 enum { TAG = 64 + 2 + 1 };
 
 struct document {
-    struct kd_served served; /* its pointers refer to the members below */
+    struct kd_served served; /* its pointers point into the other members of this struct */
     char path[80], etags[2][TAG];
     struct kd_buffer plain, gzip;
 };
@@ -50,7 +50,7 @@ static const struct {
     const char *path, *type;
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
-    { "/openapi.json", KD_JSON_TYPE, NULL /* not made here: kd_openapi_json makes it, which has other parameters */ },
+    { "/openapi.json", KD_JSON_TYPE, NULL /* made by kd_openapi_json, which has other parameters */ },
     { "/docs", KD_HTML_TYPE, kd_route_table_html },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", KD_JSON_TYPE, presets_json },

@@ -13,7 +13,7 @@
 
 /* A request that waits for a tick. The request owns it. */
 struct wait {
-    struct kd_playground_session_watcher watcher; /* must be the first member */
+    struct kd_playground_session_watcher watcher; /* must be first: callbacks cast its address to this struct */
     bool npy;
 };
 

@@ -23,7 +23,7 @@ enum kd_status kd_playground_session_read_step(const char *text, size_t length, 
 
 struct kd_playground_session_json_options {
     const struct kd_scene *scene; /* scene of the picture of the playground */
-    /* true if the token is included, because the client has just opened the session */
+    /* true: the token is included, because the client has just opened the session */
     bool token;
     /* bodies with higher ids are listed as "added"; UINT32_MAX: this list is left out */
     uint32_t before;

@@ -15,9 +15,9 @@
 #define UNSENT_BYTES (64 << 10)
 
 struct stream {
-    struct kd_playground_session_watcher watcher; /* must be the first member */
+    struct kd_playground_session_watcher watcher; /* must be first: callbacks cast its address to this struct */
     struct kd_buffer text;                        /* text that is being sent */
-    size_t at;                                    /* the bytes of the text before this position are sent */
+    size_t at;                                    /* the bytes of the text before this position are already sent */
     bool over;
 };
 

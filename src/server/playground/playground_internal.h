@@ -16,8 +16,8 @@ struct kd_playground_session {
     /* From here on, all->lock protects the members. */
     struct kd_playground_session *next;
     unsigned references;
-    /* bytes: reserved memory; dynamic_bytes: the part of it for the bodies of the picture, reserved while there is a
-     * picture */
+    /* bytes: memory that the session has reserved; dynamic_bytes: the part of `bytes` for the bodies of the picture,
+     * reserved while there is a picture */
     size_t bytes, dynamic_bytes;
     struct kd_once once; /* hashes of the request that created the session */
     bool listed, stepping;
@@ -40,7 +40,7 @@ struct kd_playground_session {
     struct kd_session *picture;
     bool unshown;                                 /* true if the picture has not been given bodies yet */
     double looked_at_ms;                          /* time when a frame was last requested */
-    bool held;                                    /* true while a thread owns the playground */
+    bool held;                                    /* true while a thread has taken the playground */
     struct kd_playground_session_waiter *waiters; /* list of jobs that wait for the playground */
     /* From here on, the members are used only by the job that owns the playground (kd_playground_session_take). */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list `waiters` */

@@ -19,7 +19,7 @@
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
-    struct kd_task task; /* must be the first member */
+    struct kd_task task; /* must be first: callbacks cast its address to this struct */
     enum what what;
     const char *type;                   /* media type of the answer */
     struct kd_playground_session *play; /* a counted reference; for OPEN, to the session that was opened */
@@ -141,7 +141,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_playground_session_scene(t->play, &old);
-    if (look) { /* first, because this can fail, and can be reverted if a later change fails */
+    if (look) { /* The scene is set first: this can fail, and it can be undone if a later change fails. */
         KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
         kd_playground_session_moved(t->play);
     }

@@ -15,8 +15,8 @@
 #define LAG_S 0.1
 #define BEATS 30.    /* number of beats per second */
 #define RATE_MS 500. /* period in ms over which the achieved rate is measured */
-#define FEW 64       /* with up to this number of bodies, a sub-step takes a microsecond or two */
-#define PIECES 16    /* number of sub-steps between two looks at the clock, if there are few bodies */
+#define FEW 64       /* number of bodies up to which a sub-step takes only a microsecond or two */
+#define PIECES 16    /* number of sub-steps between two reads of the clock, if there are few bodies */
 
 /* Data that a slice needs; they are read at its start. */
 struct order {
@@ -188,7 +188,7 @@ enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
     struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    /* Taken first, because the job that owns the playground now may change what this slice must do. */
+    /* The playground is taken before look(), because its present owner may change what this slice must do. */
     if (!kd_playground_session_take(play, &play->waiter))
         return KD_SLICE_AWAY;
     double now = kd_clock_ms();

@@ -124,7 +124,7 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        /* suspended first, because another thread may resume the connection as soon as the lock is released */
+        /* suspended with the lock held: once it is released, another thread may resume the connection */
         MHD_suspend_connection(w->mhd);
         kd_playground_session_call(play);
     }

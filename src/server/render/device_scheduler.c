@@ -11,7 +11,7 @@
 #define BRIEF_LANES 2
 /* Minimum time in ms between two searches for missing kernels of pixels; a search takes about a millisecond. */
 #define AHEAD_MS 1000.0
-#define LARGE 32 /* a picture that needs less than 1/LARGE of the memory is not counted */
+#define LARGE 32 /* a picture that needs less than 1/LARGE of the memory counts as needing none */
 
 /* The functions below access the queue's members. They are called with the lock held, unless their comment says
  * otherwise. */
@@ -88,7 +88,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
     /* After a failure, only jobs that are inside the renderer get turns, so that they can leave it. */
     if (queue->failed)
         return job->inside;
-    if (job == &queue->rest && (queue->compiling || queue->inside)) /* not now: freeing memory may close the device */
+    /* freeing memory may close the device, so it waits until nobody uses the device */
+    if (job == &queue->rest && (queue->compiling || queue->inside))
         return false;
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;

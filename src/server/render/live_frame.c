@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ratio of the number of rays along a side of a pixel: at the critical curve, compared with any other pixel */
+/* Number of rays along a side of a pixel at the critical curve, divided by that number for other pixels. */
 static unsigned critical_side(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (unsigned)lround(sqrt(lens->critical)) / lens->side : 1;

@@ -6,8 +6,8 @@
 #include "server/http/histogram.h"
 #include "server/http/shares.h"
 
-/* Timings of frames that are not passes of render/plan/pass.h: additional steps, encoding, and "other" for unknown
- * names. */
+/* Timings of a frame besides the passes of render/plan/pass.h: additional steps, encoding, and "other" for passes with
+ * unknown names. */
 #define KD_MEASURED_ALSO(M) M("kernels") M("upload") M("fill") M("total") M("encode") M("other")
 #define KD_MEASURED_ONE(name) +1
 enum { KD_MEASURED_PASSES = KD_PASS_COUNT KD_MEASURED_ALSO(KD_MEASURED_ONE) };

@@ -209,7 +209,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
-    /* no test for the painter's device, because the render queue has already tested this device */
+    /* The painter's device is not tested, because the render queue has already tested this device. */
     painter->params.prove = NULL;
     painter->params.asset_read = NULL;
     painter->params.passing = true;

@@ -8,7 +8,7 @@
 #include "scene/scene.h"
 
 struct kd_planned {
-    struct kd_task task;            /* must be the first member */
+    struct kd_task task;            /* must be first: callbacks cast its address to this struct */
     struct kd_scene scene;          /* the scene that was requested */
     struct kd_scene drawn;          /* the scene that is rendered, to which the plan belongs (kd_format_plan) */
     const struct kd_format *format; /* format of the answer, one of request->accepts; NULL: the answer is no picture */

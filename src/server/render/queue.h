@@ -55,6 +55,7 @@ enum kd_render_stage {
     KD_RENDER_WORKS_IN_LANE,
 };
 
+/* State of the kernels that a picture needs. */
 enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
@@ -64,7 +65,7 @@ struct kd_render_job {
     struct kd_plan plan;
     const struct kd_format *format; /* format of the file that is made from the picture */
     enum kd_effort effort;
-    struct kd_blur blur;    /* motion blur; samples is 0, the default, if there is none */
+    struct kd_blur blur;    /* motion blur; samples = 0 (the default): no motion blur */
     unsigned number, lossy; /* as in struct kd_picture */
     char hash[65];          /* as in struct kd_picture */
     bool keeps;             /* true if the layers of the frame are kept after it was encoded */
@@ -100,7 +101,7 @@ struct kd_render_job {
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     enum kd_render_kernels kernels;
-    struct kd_compilation *compilation; /* kernels that the job lacks, and that are being compiled or wait for that */
+    struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled or wait to be compiled */
     /* Kernels that turned out to be missing after the job had started. When they are compiled, the job starts again. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels for explaining the pixels of `settled` */

@@ -57,14 +57,14 @@ struct kd_render_queue {
     double spent_from_ms;     /* start of the present period in which reopenings are counted */
     bool compiles;            /* true while the thread that compiles kernels runs */
     struct kd_shares missing; /* the fair queueing of compilations */
-    /* compiling: kernels that are being compiled; compiled: kernels that are compiled, but not yet passed to the
-     * renderer */
+    /* compiling: kernels that are being compiled. compiled: kernels that are ready, but not yet passed to the
+     * renderer. */
     struct kd_compilation *compiling, *compiled;
     /* ahead: kernels for which no job waits; they are compiled while no other compilation waits. compiling_ahead:
      * true while such kernels are being compiled. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
-    double ahead_ms;         /* time of the latest search for kernels of this kind */
+    double ahead_ms;         /* time of the latest search for kernels for `ahead` */
     _Atomic bool uncompiled; /* set to true if the kernels that are being compiled are no longer needed */
     /* running mean of compilation times in ms; 0: there was no compilation yet */
     double compile_ms;

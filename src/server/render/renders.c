@@ -340,8 +340,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     job->done = wake;
     job->user = request;
     request->job = job;
-    /* Suspended first, because the job may be done before the push returns. A suspended request and its socket
-     * outlive the job. */
+    /* The request is suspended first, because the job may be done before the push returns. A suspended request and its
+     * socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(request->server->renders, job);
     return MHD_YES;

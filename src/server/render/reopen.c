@@ -4,7 +4,8 @@
 
 #include <time.h>
 
-#define TRIES 4      /* number of attempts; several, because a driver needs a moment to reset its device */
+/* number of attempts to reopen the device; there are several, because a driver needs a moment to reset its device */
+#define TRIES 4
 #define TRY_MS 100.0 /* pause in ms after the first attempt; each pause is twice the previous one */
 
 /* Declares the device lost. Called with the lock held. */

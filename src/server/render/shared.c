@@ -119,7 +119,7 @@ done:
     if (left)
         kd_target_finish(left);
     free(left);
-    free(right); /* only the struct, because its pointers lead into the text of `left` */
+    free(right); /* frees only the struct, because its pointers point into the text of `left` */
     return status;
 }
 

@@ -116,8 +116,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
 
 enum MHD_Result kd_task_submit(struct kd_task *task)
 {
-    /* Suspended first, because the task may be done before the push returns. A suspended request and its socket
-     * outlive the task. */
+    /* The request is suspended first, because the task may be done before the push returns. A suspended request and its
+     * socket outlive the task. */
     MHD_suspend_connection(task->request->mhd);
     kd_scheduler_push(task->queue, &task->scheduled);
     return MHD_YES;

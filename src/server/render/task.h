@@ -25,7 +25,7 @@ struct kd_task_kind {
 };
 
 struct kd_task {
-    struct kd_scheduler_job scheduled; /* must be the first member */
+    struct kd_scheduler_job scheduled; /* must be first: callbacks cast its address to this struct */
     const struct kd_task_kind *kind;
     struct kd_scheduler *queue;
     struct kd_request *request;

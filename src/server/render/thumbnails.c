@@ -11,10 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAMPLES 3 /* rays along each side of a pixel; small pictures need smooth edges */
+#define SAMPLES 3 /* number of rays along each side of a pixel; small pictures need smooth edges */
 
 struct thumbnail {
-    struct kd_painting painting; /* must be the first member; painting.png is immutable after `there` is set */
+    /* must be first: callbacks cast its address to this struct. painting.png is immutable after `there` is set. */
+    struct kd_painting painting;
     char etag[120];
     struct kd_error error; /* error of the latest attempt */
     /* there: true if the picture exists; busy: true while the painter owns the thumbnail, which no other thread may

@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The governor uses the same times to distinguish one drag from the next. */
+/* hold time in ms: initial value and maximum. The governor uses the same times to distinguish one drag from the
+ * next. */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 
 void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry)

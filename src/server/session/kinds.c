@@ -55,7 +55,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
 
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame)
 {
-    const bool gone = frame->last && !frame->picture.n_layers; /* true if no other encoding can be made any more */
+    /* true if no further encoding of the frame can be made */
+    const bool gone = frame->last && !frame->picture.n_layers;
     const struct kd_live_file *file = file_of(frame, kind_of(viewer, frame->last));
     return file || !gone ? file : file_of(frame, 0);
 }

@@ -13,8 +13,8 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define HEARTBEAT_MS 15000.0 /* time in ms between two comments in an event stream, which show that it is alive */
-/* maximum number of unsent bytes in the kernel; more bytes that wait there would delay newer frames */
+#define HEARTBEAT_MS 15000.0 /* interval in ms of the comments that serve as heartbeats in an event stream */
+/* maximum number of unsent bytes in the kernel; with more, newer frames would be delayed */
 #define UNSENT_BYTES (64 << 10)
 
 static enum MHD_Result ended(struct kd_request *request)
@@ -184,9 +184,9 @@ void kd_live_abandon(struct kd_request *request)
 /* A stream of frames. For each frame it contains some bytes before the picture, the picture, and some bytes after
  * it. */
 struct stream {
-    struct kd_viewer viewer; /* must be the first member */
+    struct kd_viewer viewer; /* must be first: callbacks cast its address to this struct */
     enum { MULTIPART, BINARY, EVENTS } form;
-    struct kd_live_frame *frame; /* the frame that is being sent */
+    struct kd_live_frame *frame; /* the frame that is being sent to the client */
     char before[64], next[96];
     struct part {
         const char *data;

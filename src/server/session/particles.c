@@ -16,7 +16,7 @@
 
 /* The work of listing particles. The request owns it. */
 struct kd_particles_job {
-    struct kd_render_job device; /* must be the first member */
+    struct kd_render_job device; /* must be first: callbacks cast its address to this struct */
     struct kd_request *request;
     struct kd_particle_list list;
     size_t done;
@@ -99,7 +99,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->device.error, false);
     }
     request->reply_bytes = job->rows.size;
-    /* The bytes stay reserved until the end of the request. */
+    /* The answer's bytes stay reserved until the request ends. */
     struct MHD_Response *response = kd_reply_take(&job->rows, KD_BYTES_TYPE);
     if (!response)
         return kd_reply_no_memory(request);
@@ -160,8 +160,8 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.cost.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* Suspended first, because the job may be done before the push returns. A suspended request and its socket
-     * outlive the job. */
+    /* The request is suspended first, because the job may be done before the push returns. A suspended request and its
+     * socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;

@@ -20,7 +20,7 @@
 struct path_request { struct kd_timeline_items items; };
 
 struct path_task {
-    struct kd_task task;  /* must be the first member */
+    struct kd_task task;  /* must be first: callbacks cast its address to this struct */
     struct kd_scene from; /* the session's scene at the time of the request */
     struct kd_timeline path;
     bool read;

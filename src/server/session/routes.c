@@ -224,8 +224,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* The session could not be reported: it ends, because the client does not know its id and, without a key, cannot
-     * request it again. */
+    /* The answer could not be sent. The session ends, because the client does not know its id and, without a key,
+     * cannot request it again. */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);

@@ -10,7 +10,7 @@
 
 /* Time constant of auto exposure in ms: within this time, the exposure follows 63 % of a change. */
 #define EXPOSURE_MS 2000.0
-#define IDLE_MS 5e3 /* when the user has made no change for this time in ms, other work of the client goes first */
+#define IDLE_MS 5e3 /* time in ms without a change by the user after which other work of the client goes first */
 #define SURE 0.02   /* the remaining time is estimated only when this fraction of a picture is done */
 /* Maximum number of a session's frames that are rendered but not encoded: one frame can be traced while another one
  * is encoded. */
@@ -42,8 +42,8 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Slows auto exposure down while only time advances. The automatic exposure depends on the few brightest pixels,
- * which show different particles in each frame, so that without this the picture would flicker. */
+/* Slows auto exposure down while only time advances. The automatic exposure depends on the few brightest pixels, which
+ * show different particles in each frame. Without the slowdown the picture would flicker. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->picture.exposure_from = s->exposure;
@@ -117,7 +117,7 @@ void kd_session_pump(struct kd_session *s)
         kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
-        return; /* not now; kd_sessions_sweep will call this function again */
+        return; /* no frame starts now; kd_sessions_sweep will call this function again */
     struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);

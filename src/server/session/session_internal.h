@@ -41,9 +41,9 @@ struct kd_session {
     unsigned encoding;
     bool adding; /* true while the latest frame is encoded in another format */
     struct kd_live_frame *latest;
-    /* exposed_ms: time when the latest frame was rendered; exposure: its exposure in stops */
+    /* exposed_ms: time when the latest frame was rendered; exposure: exposure of that frame in stops */
     double exposed_ms, exposure;
-    unsigned exposed_revision; /* revision of the scene in that frame; 0 if there is no such frame */
+    unsigned exposed_revision; /* revision of the scene in the frame rendered at exposed_ms; 0: none */
     /* shown_ms: time when the latest frame was published; interval_ms: smoothed time between frames */
     double shown_ms, interval_ms;
     enum kd_status failed; /* status of the latest render, with its error in `error`; a patch clears it */
@@ -87,7 +87,7 @@ void kd_session_drop(struct kd_session *session); /* cancels the frame that is b
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes the viewers that have news */
 
-/* From here on the functions are in kinds.c, and concern the encodings of a frame. This one chooses the first
+/* The functions from here on are in kinds.c, and concern the encodings of a frame. The first function chooses the first
  * encoding of the frame, from those that the waiting viewers accept. */
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
 /* Returns the frame's file in the encoding for this viewer; NULL if it is not encoded yet. */

@@ -91,8 +91,8 @@ struct kd_session_state {
         /* true if the frame that is being made refines a scene at rest; false if it is the first frame of the
          * present scene */
         bool refines;
-        /* fraction of that frame that is done, and estimated remaining time in s; NAN if no frame is being made, or
-         * if the value is unknown */
+        /* of the frame that is being made: fraction that is done, and estimated remaining time in s; NAN if no frame is
+         * being made, or if the value is unknown */
         double fraction, left_s;
     } progress;
 };

@@ -102,7 +102,7 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    /* suspended first, because another thread may resume the connection as soon as the lock is released */
+    /* suspended with the lock held: once it is released, another thread may resume the connection */
     MHD_suspend_connection(viewer->mhd);
     kd_session_add_kinds(s);
     kd_session_pump(s);
