@@ -159,7 +159,7 @@ struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const 
             return kd_null_roots_of(m);
     }
     struct kd_null_roots o = { .mean = r + 0.5 * sum, .pair = 0.25 * sum * sum - product };
-    double both = o.mean * o.mean - o.pair; /* r1 and r2: r3 r4 and r1 r2 both = C; r1 + r2 = -2 mean */
+    double both = o.mean * o.mean - o.pair; /* r3 r4; r1 and r2 follow from r1 r2 both = C, r1 + r2 = -2 mean */
     o.r1 = -o.mean - sqrt(o.mean * o.mean - m->constant / both);
     o.r2 = m->constant == 0 ? 0 : m->constant / both / o.r1;
     finish(&o, both);

@@ -25,7 +25,7 @@
 struct kd_null_motion {
     struct kd_hole hole;
     double c, s, alpha, beta;
-    double lambda, eta, quadratic, k, constant; /* coefficients of R(r): quadratic is A, k is K, constant is C */
+    double lambda, eta, quadratic, k, constant; /* numbers of R(r): quadratic is A, k is K, constant is C */
 };
 
 /* Constants of a ray. cos_theta: in [-1, 1]. sin_theta: 0 if it is to be computed from cos_theta. */
