@@ -31,7 +31,7 @@ void main()
     if (n >= push.columns * push.rows)
         return;
     int i = int(n % push.columns), width = int(push.pixels_x), cell = int(push.cell);
-    int row = int(n / push.columns) * width; /* index of the row's first pixel */
+    int row = int(n / push.columns) * width; /* index of the first pixel of the row */
     int from = row + (COARSE ? max(cell * (i - 2), 0) : i), to = row + (COARSE ? min(cell * (i + 1), width) : i + 1);
     float middle = COARSE ? float(i) - 0.5 : 0.0;
     vec3 sum = vec3(0);

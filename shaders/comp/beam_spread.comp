@@ -33,7 +33,7 @@ vec3 pixel(int n)
     if (!COARSE)
         return cell(row + x);
     float u = (float(x) + 0.5) * push.cells, left = floor(u), t = u - left - 0.5;
-    /* index of the cell before the pixel's own cell, as the grid has one extra cell to the left of the picture */
+    /* index of the cell before the pixel's own cell, because the grid has one extra cell to the left of the picture */
     int i = row + int(left);
     return beam_spline(t + 1) * cell(i) + beam_spline(t) * cell(i + 1) + beam_spline(t - 1) * cell(i + 2);
 }

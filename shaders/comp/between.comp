@@ -5,7 +5,7 @@
  *
  * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
  * crossing. For directions in the sky it interpolates the unit vector. At the distance x from the middle, in sides of a
- * pixel, the polynomial's error is x(x^2 - 1)/6 times the third difference along x. This is at most 1/17 of that
+ * pixel, the polynomial's error is x(x^2 - 1)/6 times the third difference along x, and so at most 1/17 of that
  * difference. The same holds along y.
  *
  * If MARK is set, the kernel interpolates nothing. It only tests whether interpolation is accurate, and writes 1 or 0
@@ -26,7 +26,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 struct kd_between { KD_BETWEEN_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_between push_; };
-kd_between push; /* read before the first branch, as in footprint.comp */
+kd_between push; /* copied before the first branch, for the reason given in footprint.comp */
 layout(set = 0, binding = 0) buffer Listed { float listed[]; };
 layout(set = 0, binding = 1) readonly buffer LensMap { float lens[]; };
 
@@ -44,7 +44,7 @@ vec3 turned(vec3 d, bool angle)
     return d;
 }
 
-/* Values that the map stores for the ray at index `at`. Of a crossing: w and a second quantity. Of the sky: a unit
+/* Values that the map stores for the ray at index `at`. For a crossing: w and a second quantity. For the sky: a unit
  * vector. */
 vec3 crossing(uint n, uint quantity, uint at)
 {
@@ -86,8 +86,8 @@ vec3 change(kd_biquadratic p, float x, float y)
            x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
 }
 
-/* True if the map is nearly linear over a patch, that is, second differences are small relative to first ones. m:
- * metric of the source. */
+/* True if the map is nearly linear over a patch: its second differences are small relative to its first ones. m: metric
+ * of the source. */
 bool straight(kd_biquadratic p, vec3 m)
 {
     vec3 i = m * p.slope_x, j = m * p.slope_y, a = 2.0 * m * p.bend_x, b = 2.0 * m * p.bend_y, c = m * p.xy;
@@ -157,8 +157,8 @@ bool may(uint x, uint y, uint at)
     return yes;
 }
 
-/* Offset of ray k of a pixel from the pixel's middle, along one side. Each invocation processes one pixel, and all rays
- * of that pixel use the same polynomials. */
+/* Offset, along one side, of ray k of a pixel from the pixel's middle. Each invocation processes one pixel, and all
+ * rays of that pixel use the same polynomials. */
 float along(uint k) { return (float(k) + 0.5) / float(SIDE) - 0.5; }
 
 /* Interpolates w of crossing n and a second quantity, and writes both for all rays of a pixel. */
@@ -201,7 +201,7 @@ void fill(uint at, uint to)
             copy(n, at, to);
             continue;
         }
-        for (int i = 0; i < 4; i++) /* w was already written together with another quantity */
+        for (int i = 0; i < 4; i++) /* w has been written together with another quantity */
             if ((QUANTITIES & beside[i]) != 0u &&
                 (i > 0 || (QUANTITIES & (KD_LENS_PHI | KD_LENS_DELAY | KD_LENS_SLOPE)) == 0u))
                 interpolate(n, beside[i], at, to);

@@ -22,7 +22,7 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 layout(push_constant) uniform Push { KD_BLOOM_BRIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 1) buffer Blocks { vec4 blocks[]; };
 
-/* Light removed from four adjacent pixels. */
+/* Light that the lens removes from four adjacent pixels. */
 struct quad { vec3 a, b, c, d; };
 vec3 taken(vec3 light) { return bloom_of(push.gain * light, push.strength); }
 
@@ -49,7 +49,7 @@ quad quad_at(uint x, uint row)
 #endif
 
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
-           /* WIDE: number of columns of an invocation. EACH: number of blocks in these columns */
+           /* WIDE: number of columns of pixels that an invocation processes. EACH: number of blocks in these columns */
     EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1;
 
 /* The sum that earlier bands have stored for the invocation's n-th block; 0 if there were none. */

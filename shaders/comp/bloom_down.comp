@@ -15,7 +15,7 @@ layout(push_constant) uniform Push
     uint cells_x, cells_y;
     float share, coarse_share;
 }
-push; /* sizes of the coarse grid */
+push; /* numbers of columns and rows of the coarse grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer fine;
 vec3 cell(int at) { return texelFetch(fine, at).rgb; }

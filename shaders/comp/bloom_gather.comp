@@ -25,8 +25,8 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Numbers along an axis. pixels: pixels of the picture. block: pixels in a block. blocks: blocks of the picture. cells:
- * cells of the grid. */
+/* Numbers along one axis: of the picture's pixels, of the pixels in a block, of the picture's blocks, and of the grid's
+ * cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
 /* Index of a block, and the block's weights for two adjacent cells along an axis. */
 struct kd_tap {
@@ -43,7 +43,8 @@ int first_tap(kd_bloom_axis axis, int i, bool around)
            (around && RAGGED ? 1 : 0); /* beyond the left edge, the next block is the narrow block at the right edge */
 }
 
-/* The tap for block `within`. at: distance of the block's centre from the centre of cell i, in cells. */
+/* The tap (index and weights) for block `within`. at: distance of the block's centre from the centre of cell i, in
+ * cells. */
 kd_tap tap_of(kd_bloom_axis axis, int within, float at)
 {
     float scale = float(axis.cells) / float(axis.pixels);

@@ -3,8 +3,8 @@
  *
  * With the weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. So the light
  * of all grids together is a sum of quadratic B-splines, and the result does not depend on the grid on which they are
- * evaluated. This grid's light is smoothed by 1, 2, 1 over 4 along each side. That filter is zero at the frequency that
- * a grid aliases, so a point of light spreads in the same way wherever it is in its cell. */
+ * evaluated. This grid's light is smoothed by 1, 2, 1 over 4 along each side. This smoothing removes the frequency that
+ * the grid aliases, so a point of light spreads in the same way wherever it is in its cell. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push
     uint cells_x, cells_y;
     float share, coarse_share;
 }
-push; /* sizes of the fine grid */
+push; /* numbers of columns and rows of the fine grid */
 #ifdef KD_TEXELS
 layout(set = 0, binding = 0) uniform textureBuffer coarse;
 layout(set = 0, binding = 1) uniform textureBuffer light;
@@ -33,7 +33,7 @@ vec3 cell(int at) { return light[at].rgb; }
 #endif
 layout(set = 0, binding = 2) writeonly buffer Fine { vec4 fine[]; };
 
-/* Results of smoothing four cells in a row by the weights 1, 2, 1: the values of the two middle cells, times 4. */
+/* Smooths four cells in a row by the weights 1, 2, 1. Returns the values of the two middle cells, times 4. */
 struct pair { vec3 a, b; };
 
 pair smoothed(int row, ivec4 x)

@@ -33,10 +33,10 @@ layout(local_size_x = KD_GROUP_SIZE) in;
 #define U(name) uint name;
 struct kd_footprint { KD_FOOTPRINT_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_footprint push_; };
-/* copied before the first branch, because lavapipe reads the block again for each lane and each use after a branch */
+/* copied before the first branch, because after a branch lavapipe reads the block again for each lane and each use */
 kd_footprint push;
 layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
-/* Places of rays that are traced singly (ray/places.glsl). */
+/* List of places of the rays that are traced singly (ray/places.glsl). */
 layout(set = 0, binding = KD_FOOTPRINT_PLACES) readonly buffer Places { uint words[]; };
 #include "ray/places.glsl"
 #ifdef KD_TEXELS
@@ -49,7 +49,7 @@ float map_at(uint at) { return lens[at]; }
 const uint FIRST = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u ? KD_LENS_FOOTPRINT : KD_LENS_SKY_FOOTPRINT;
 const bool SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u;
 
-/* Where a ray ends. For a crossing: (w, phi). For the sky: a unit vector. */
+/* Where a ray meets the disk or the sky. For a crossing: (w, phi). For the sky: a unit vector. */
 struct kd_spot {
     vec3 at;
     bool there;
@@ -144,7 +144,8 @@ struct kd_fit {
     float dd, count, lacks;
 };
 
-/* True if the left pixel, and the right pixel, is in the list too. Such a pixel is adjacent in the list as well. */
+/* For the left and the right neighbour of a pixel: true if it is in the list too. Such a neighbour is adjacent in the
+ * list as well. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -216,7 +217,7 @@ kd_oval footprint(kd_which which, uint at, kd_grid grid)
     return on_grid(which, at, grid);
 }
 
-/* Stores through max because of lavapipe, as in lens_fill.comp. */
+/* Stores the result of max, for the reason given in lens_fill.comp. */
 void put(uint at, float value) { lens[at] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* Marks a footprint as missing, because the neighbouring rays are not traced yet. */
@@ -253,7 +254,7 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        /* orders have no gaps, so a ray without a first crossing has no crossing */
+        /* orders have no gaps, so a ray without a first crossing has none at all */
         bool crosses = ORDERS > 0u && map_at(at) > 0.0;
         do {
             if (crosses) {

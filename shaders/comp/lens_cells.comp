@@ -29,8 +29,8 @@ layout(set = 0, binding = 2) readonly buffer Nodes { float nodes[]; };
 
 const float CONDITION = 0.3;
 
-/* queue_of: offset of the list of cells of a level; each list is four times as long as that of the level before.
- * places_of: offset of the list of places. */
+/* queue_of: offset of a level's list of cells, which is four times as long as the list of the level before. places_of:
+ * offset of the list of places. */
 uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * (level - 1u))) - 1u) / 3u); }
 uint places_of_nodes() { return units_of(2u); }
 uint places_alone() { return places_of_nodes() + push.room; }
@@ -98,7 +98,7 @@ void make_node(uint node, uint word, uvec2 at)
 }
 
 /* Lists the missing nodes of a block, or of the four quarters of a divided cell. Also lists the two rays that check the
- * block or each quarter. stage: the stage at which these rays are traced. */
+ * block, or each quarter. stage: the stage at which all these rays are traced. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -131,7 +131,7 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 }
 
 /* The node i along the cell's middle row or middle column, for comparison with the checking rays. i = 5 is the checking
- * ray, which lies next to the first node of that line. */
+ * ray of that line, which is next to the line's first node. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -140,9 +140,9 @@ uint node_along(uvec2 corner, uint side, uint axis, uint i)
     return number[word] - 1u;
 }
 
-/* Results for one quantity, from both lines of nodes. off: largest error of the polynomials at the two checking rays,
- * for each component; apart: the same for the whole vector. slope2: sum of the squared slopes in the middle. bend:
- * largest second difference between quarters of the side. */
+/* Results for one quantity, from both lines of nodes. off: for each component, the larger error of the polynomials at
+ * the two checking rays. apart: the larger error of the whole vector. slope2: sum of the squared slopes in the middle.
+ * bend: largest second difference between quarters of the side. */
 struct kd_line_told {
     vec3 off, slope2, bend;
     float apart;
@@ -179,8 +179,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     } while (++axis < 2u);
 
-/* Distance of the cell's middle from the direction to the hole, in steps between rays. For a sphere or a dome one
- * radian is used instead. Rounding of a direction moves its ray by an amount proportional to this distance. */
+/* Distance of the cell's middle from the direction to the hole, in steps between rays. On a sphere or a dome one radian
+ * is used instead. Rounding of a direction moves its ray by an amount proportional to this distance. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));
@@ -207,9 +207,9 @@ bool islands_fit_in(uint side)
     return 0.25 * float(side) * ray > APART;
 }
 
-/* True if R at the turning point, which vanishes where fates change, is certainly nonzero between the nodes. least: its
- * least value at the nodes. Between nodes a curve deviates from a straight line by an eighth of its second difference.
- * The margin is four times that deviation, plus twice the error of the polynomials. */
+/* True if R at the turning point, which vanishes where fates change, is certainly nonzero between the nodes. least: the
+ * least R at the nodes. Between nodes a curve deviates from a straight line by an eighth of its second difference. The
+ * margin is four times this deviation, plus twice the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;

@@ -33,8 +33,8 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/open.glsl"
 #include "ray/node.glsl"
 
-/* number of half periods followed after the last order; rays that circle even longer are within a relative
- * distance of 1e-13 of the critical curve */
+/* number of half periods that are followed after the last order. Rays that circle longer are within a relative distance
+ * of 1e-13 of the critical curve */
 const uint MORE = 12;
 
 /* The part of a ray between two crossings. */
@@ -43,10 +43,10 @@ struct kd_leg {
     kd_centre to;   /* centre at the next crossing; meaningful only if the ray is still outside there (see `alive`) */
     kd_state next;  /* state of the ray at the next crossing */
     bool alive;     /* true if the ray is still outside at the next crossing */
-    float psi, chi; /* psi: azimuth at the next crossing without drag; chi: drag up to `last` */
-    float drag;     /* drag from `last` to the next crossing */
-    float tau;      /* time of the next crossing */
-    float side;     /* direction at the last crossing: 1 upwards, -1 downwards */
+    float psi, chi; /* psi: azimuth without drag at the next crossing. chi: azimuth by drag up to `last` */
+    float drag;     /* azimuth by drag from `last` to the next crossing */
+    float tau;      /* Mino time of the next crossing */
+    float side;     /* direction of the ray at `last`: 1 upwards, -1 downwards */
     bool crossed;   /* true if `last` is a crossing, not the start */
 };
 
@@ -70,8 +70,8 @@ bool goes_on(kd_leg leg, bool falls, float limit)
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* True if rounding may have created or removed the leg's next crossing. This test does not use the drag, which takes
- * half of the kernel's time and is computed only if something else needs it. */
+/* True if rounding may have created or removed the leg's next crossing. This test does not use the drag. The drag takes
+ * half of the kernel's time, and is computed only if something else needs it. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
@@ -93,7 +93,7 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
 }
 
 /* True if polar.first, the time of the first crossing, is valid. If A > 0 and Q < 0 the ray never reaches the plane.
- * Where Q nearly vanishes, the sign of Q is only rounding (polar.glsl). Then the time is compared with a lower bound:
+ * Where Q nearly vanishes, its sign is decided by rounding (polar.glsl). Then the time is compared with a lower bound:
  * u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so the ray cannot reach the plane sooner than at the speed s / 2 sqrt(e).
  * If A < 0 and Q = 0, the ray stays in the plane. Its half periods are counted as usual, although it crosses nothing.
  */
@@ -157,7 +157,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* a slightly tilted ray is used, because the azimuth has no start for a ray in the plane */
+    kd_ray tilted = ray; /* a ray in the plane is tilted slightly, because its azimuth would have no start */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -195,7 +195,7 @@ void main()
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    /* all orders are followed: without drag a half period costs as much as storing zeros for a missing crossing */
+    /* follows all orders, because without drag a half period costs no more than storing zeros for a missing crossing */
     if (!PHI && !SKY) {
         for (; n < ORDERS; n++) {
             bool before = leg.alive;

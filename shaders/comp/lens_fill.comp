@@ -123,8 +123,8 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* The rays of a column: index of the first ray in a plane; place of the first ray in quarters of the cell; number of
- * rays; and spacing of the rays. */
+/* The rays of a column: index in a plane of the first ray; place of the first ray, in quarters of the cell; number of
+ * rays; and distance between rays. */
 struct kd_rows {
     uint at, n;
     float from, unit;
@@ -174,7 +174,7 @@ void main()
     const float state = state_of(c.node[12]);
     const uint last = OF_SKY ? 1u : min(crossings_of(state), ORDERS);
     uint n = 0u;
-    do { /* this loop tests at its end, for the reason that lens_closed.comp gives */
+    do { /* this loop tests at its end, for the reason given in lens_closed.comp */
         vec3 middle = value_of(c.node[12], n);
         fill_rows(lines_of(c, n, middle), rows, middle, n, captured(state));
     } while (++n < last);

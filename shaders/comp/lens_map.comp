@@ -40,17 +40,17 @@ float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 /* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    /* part: number of steps before the turn, 0 to 4. drag: the group's frame dragging by Boole's rule, to be
-     * replaced by the result of kd_drag_about_turn */
+    /* part: number of steps before the turn, 0 to 4. drag: the group's frame dragging by Boole's rule, which the result
+     * of kd_drag_about_turn replaces */
     float part, drag;
     float w; /* w of the turning point */
-    /* any: true if there is such a group. last: true if the group is the last one of its half period */
+    /* any: true if the ray has such a group. last: true if it is the last group of its half period */
     bool any, last;
 };
 
 /* Frame dragging over a group of steps in which the ray turns. The integral has two parts: up to the turn in ingoing
- * coordinates, and after it in outgoing coordinates. In the coordinates of its part each integrand is smooth and has no
- * pole. */
+ * coordinates, and after it in outgoing coordinates. In these coordinates the integrand of each part is smooth and has
+ * no pole. */
 float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
@@ -169,7 +169,7 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
-        /* adds the error of the steps up to this crossing, except for a clamped w */
+        /* adds the error of the steps up to this crossing, unless w was clamped */
         if (y.w > -cam.horizon && y.w < deepest)
             lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
         float passes = barrier.r < 0.0 ? 2.0 : 1.0; /* a ray that turns passes the turning point twice */
@@ -206,7 +206,7 @@ void main()
         open = end.fate == KD_FATE_UNDECIDED;
     }
     float curve = barrier.r;
-    /* R is also compared where the origin of light changes from inside to outside; the product vanishes there
+    /* multiplies R by W at the horizon, which vanishes where the origin of light changes from inside to outside
      * (kd_from_outside) */
     if (INGOING && start.w >= cam.horizon) {
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;

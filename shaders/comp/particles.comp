@@ -22,8 +22,8 @@ layout(push_constant) uniform Push { KD_PARTICLES_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Guides { kd_guide guides[]; };
 layout(set = 0, binding = 1) buffer Grid { uint grid[]; };
 
-/* Cosine and sine of a phase, times a random amplitude in [0, 1]. Over all particles, the points (amplitude, phase) are
- * uniform in the unit disc. */
+/* Cosine and sine of a particle's phase, times its random amplitude in [0, 1]. Over all particles, the points
+ * (amplitude, phase) are uniform in the unit disc. */
 kd_phasor swing(uint random, uint phase)
 {
     kd_phasor t = kd_cos_sin(float(int(random + phase)) * (KD_PI / 2147483648.0));
@@ -36,7 +36,7 @@ kd_phasor swing(uint random, uint phase)
 /* Adds a particle to the grid that starts at word `first`. */
 void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
-    if (row < 0.0 || row > float(rows)) /* skipped, because the particle is at present beyond the edge of the grid */
+    if (row < 0.0 || row > float(rows)) /* skips a particle that is at present beyond the edge of the grid */
         return;
     uint i = min(uint(row), rows - 1), j = phi >> (32 - columns_log2);
     uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;

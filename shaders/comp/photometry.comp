@@ -20,7 +20,7 @@ layout(push_constant) uniform Push { KD_LIGHT_FIELDS_(F, U) } push;
 layout(set = 0, binding = 0) readonly buffer Radiance { float radiance[]; };
 layout(set = 0, binding = 1) writeonly buffer Sums { vec4 sums[]; };
 
-/* A compensated sum. value: the sum so far. lost: the amount by which rounding has made it too large. */
+/* A compensated sum. value: the sum so far. lost: the amount by which rounding has made `value` too large. */
 struct sum4 { precise vec4 value, lost; };
 
 sum4 add(sum4 s, vec4 term)

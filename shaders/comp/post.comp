@@ -57,7 +57,7 @@ vec3 aces(vec3 c)
     const mat3 into = mat3(0.59719, 0.07600, 0.02840, 0.35458, 0.90834, 0.13383, 0.04823, 0.01566, 0.83777);
     const mat3 outof = mat3(1.60475 / d, -0.10208 / d, -0.00327 / d, -0.53108 / d, 1.10813 / d, -0.07276 / d,
                             -0.07367 / d, -0.00605 / d, 1.07602 / d);
-    c = into * min(c, vec3(1e6)); /* limited, because the curve squares it */
+    c = into * min(c, vec3(1e6)); /* limits the light, because the curve squares it */
     c = (c * (c + 0.0245786) - 0.000090537) / (c * (c + 0.4329510 / d) + 0.238081 / d);
     return outof * c;
 }
@@ -76,9 +76,9 @@ vec3 neutral(vec3 c)
 }
 
 /* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. The power 1.055 c^(1/2.4) - 0.055 is approximated by a
- * polynomial in s = c^(1/4) for c from 0.0031308 to 1. Among polynomials that are 1 at c = 1, this one has the least
- * largest error, 3.4e-7. 2e-7 is added, so that white is 65535 in spite of roundoff. The total error is below 5.4e-7, a
- * thirtieth of a step of 16 bits. */
+ * polynomial in s = c^(1/4) for c from 0.0031308 to 1. Among polynomials that are 1 at c = 1 it is the best: its
+ * largest error is 3.4e-7. 2e-7 is added, so that white is 65535 in spite of roundoff. The total error is below 5.4e-7,
+ * a thirtieth of a step of 16 bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);
@@ -187,14 +187,14 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     c = srgb(clamp(c, 0.0, 1.0));
 #endif
     float spread = 0.998 * push.dither;
-    /* adds up to one half or a dither, then truncates, which rounds down because the value is positive */
+    /* adds at most one half, or a dither, and truncates; truncation rounds down because the value is positive */
     return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS);
 }
 
 bool is_number(vec3 c) { return kd_is_finite(c.r) && kd_is_finite(c.g) && kd_is_finite(c.b); }
 
-/* How many of the four pixels have light that is not finite. left: number of pixels from here to the end of the band;
- * later ones are not counted. */
+/* Number of pixels, of the four, whose light is not finite. left: number of pixels from here to the end of the band.
+ * Pixels after the end are not counted. */
 uint without_number(vec4 a, vec4 b, vec4 c, uint left)
 {
     return (is_number(a.xyz) ? 0u : 1u) + (left < 2u || is_number(vec3(a.w, b.xy)) ? 0u : 1u) +

@@ -29,7 +29,7 @@
 #include "shared/interface.h"
 #include "shared/spec.h"
 KD_SPEC_RAYS(KD_SPEC_U_, KD_SPEC_B_)
-const bool INGOING = false; /* observers are outside the horizon */
+const bool INGOING = false; /* the kernel is only for observers outside the horizon */
 
 #define KD_NYSTROEM_ORDER METHOD
 #include "ray/kerr_ray.glsl"
@@ -111,9 +111,9 @@ float drifted(kd_geodesic m, kd_state y, float time)
 }
 
 /* Factor for the error of the steps. For a method of order p, the results with all steps and with half the steps differ
- * by 2^p - 1 times the remaining error, that is, 15 or 63 times. LEFT times this difference is about thirty times the
- * remaining error. The margin makes it a bound even if the steps are so coarse that this relation fails.
- * lost_in_a_turn: error of steps of length h over a half turn, for rays that have no crossing to show it. */
+ * by 2^p - 1 times the remaining error: 15 or 63 times. LEFT times this difference is about thirty times the remaining
+ * error. The margin makes it a bound even if the steps are so coarse that this relation fails. lost_in_a_turn: error of
+ * steps of length h over a half turn, for rays that have no crossing to show it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -153,8 +153,7 @@ void main()
     KD_TRACE_STEP(KD_TRACE_START, 0.0, last.y, last.v, 0.0);
     float above = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     float h = polar.first / float(STEPS), psi = 0.0, chi = 0.0, delay = 0.0, tau = 0.0, error = 0.0;
-    /* values at the last crossing: lost_before is the error of w due to the steps, spread the divergence of
-     * neighbouring rays */
+    /* values at the last crossing. lost_before: error of w due to the steps. spread: divergence of neighbouring rays */
     float lost_before = 0.0, spread = 1.0;
     bool alive = polar.crosses;
     uint at = 3 * ORDERS + 4, o = at * i;
@@ -175,7 +174,7 @@ void main()
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
             KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
-            /* kept finite, as a ray whose error is amplified by more than 1e12 counts as undecided anyway */
+            /* limited to stay finite: a ray whose error is amplified by more than 1e12 counts as undecided anyway */
             p.y.z = clamp(p.y.z, -1e12, 1e12);
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
@@ -196,8 +195,8 @@ void main()
         /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
          * integrations, if that is small. Two wrong paths may agree by chance. So the error of the steps is taken to be
          * at least the error at the last crossing, times the growth of the variation since then. Rounding adds about
-         * ten unit roundoffs, amplified by the variation. It adds as much again through the time of the crossing, and
-         * as much through the drift of the first integral. */
+         * ten unit roundoffs, amplified by the variation. The error of the crossing's time adds as much again, and so
+         * does the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +

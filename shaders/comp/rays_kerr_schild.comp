@@ -30,8 +30,8 @@ layout(set = 0, binding = 0) readonly buffer Rays
 #define F(name) float name;
     KD_HOLE_MORE_FIELDS_(F)
 #undef F
-    /* eight numbers for each ray: x, y, z, p_x, p_y, p_z, then 1/r and azimuth of the crossing before the start (0
-     * and 0 if there is none) */
+    /* eight numbers for each ray: x, y, z, p_x, p_y, p_z; then 1/r and azimuth of the crossing before the start, 0 and
+     * 0 if there is none */
     float list[];
 }
 rays;
@@ -184,9 +184,9 @@ void main()
         ends[o + n] = 0.0;
 
     /* lavapipe leaves all loops of an invocation after 65535 rounds in total, with intermediate values in the
-     * variables. `most` is a lower limit; a ray that needs more rounds stays undecided. With the most steps that
-     * src/render/rays/check.c accepts, `most` is 16 half turns for Tao's method and 60 for the others. A ray that
-     * passes the hole takes 8 to 13. */
+     * variables. `most`, the limit of rounds, is therefore lower; a ray that needs more rounds stays undecided. With
+     * the most steps that src/render/rays/check.c accepts, `most` is 16 half turns for Tao's method and 60 for the
+     * others. A ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -197,7 +197,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* rotations for the sizes of step, computed here instead of in each step, because the series has ten rounds */
+    /* rotations for all sizes of step; computed once, because their series takes ten rounds of a loop */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);
@@ -235,7 +235,7 @@ void main()
         }
         if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
-            /* from here on the ray is straight; it crosses the plane once more if it moves towards it */
+            /* from here on the ray is straight, and crosses the plane once more if it moves towards the plane */
             if (z1 * y.a.p.z < 0.0 && n < ORDERS) {
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);

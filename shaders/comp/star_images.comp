@@ -59,7 +59,7 @@ kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
     bool inside = place.x >= 0;
     uint there = inside ? uint(place.y) * push.width + uint(place.x) : at;
     vec3 n = kd_sky_from(there);
-    n -= c.n; /* subtracted first, so that small differences keep all their digits */
+    n -= c.n; /* values are subtracted first, so that small differences keep all their digits */
     return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));
 }
 
@@ -161,7 +161,7 @@ void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 
 kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
 {
-    vec2 f[9]; /* places, in the plane of the sky, to which the 3 x 3 rays go, row by row */
+    vec2 f[9]; /* places of the 3 x 3 rays in the plane of the sky, row by row */
     uint there = 0u;
     int k = 0;
     [[dont_unroll]] do {
@@ -219,7 +219,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
         vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
         far = max(abs(step_.x), abs(step_.y));
         p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
-        /* stops here, because the next step of Newton's method would only be about 1e-8 */
+        /* stops, because the next step of Newton's method would be only about 1e-8 */
     } while (++k < 6 && far > 1e-4);
     return far < 1e-3 ? p : vec2(1e9);
 }
@@ -278,7 +278,7 @@ void images(uint at, uint k)
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
-    uint fresh = 0u; /* bit k is set if root k was not found before, and is counted */
+    uint fresh = 0u; /* bit k is set if root k counts: it is in the cell, and no earlier start found it */
     int starts = is_plain(m) ? 1 : 4;
     /* This loop tests at its head. With the test at its end, images are lost on lavapipe (Mesa 22.3), for an unknown
      * reason. */

@@ -118,7 +118,7 @@ void search(uint at)
     wide = kd_sky_galactic(wide);
     /* The rectangle about the parallelogram. e adds little to it, unless the parallelogram is thin. The rectangle is
      * limited to the ray's size. A small change of direction moves the place on the face by at most 1 + p^2 + q^2 times
-     * as much; a margin is added because that factor grows within the step. */
+     * that change. A margin is added, because this factor grows within the step. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room =

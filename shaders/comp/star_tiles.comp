@@ -81,7 +81,7 @@ kd_tile tile_about(uint at, bool whole)
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
         uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
         vec3 other = kd_sky_from(there);
-        /* subtracted first, so that small differences keep all their digits */
+        /* values are subtracted first, so that small differences keep all their digits */
         vec2 q = vec2(dot(e1, other - n), dot(e2, other - n));
         float u = float(i), v = float(j);
         escape = escape && kd_sky_escapes(there) && dot(n, other) > 0.5;
@@ -121,7 +121,7 @@ kd_tile tile_about(uint at, bool whole)
     t.simple = escape && kd_is_finite(t.bent) && t.bent < KD_STAR_TILE_BENT && off < KD_STAR_TILE_OFF && fine;
     t.near = min(0.61 + 0.55 * off, NEAR);
     t.is_smooth = false;
-    if (TILE == KD_STAR_TILE) { /* each axis has rays at -2, -1, 0, 1 and 2 of these steps */
+    if (TILE == KD_STAR_TILE) { /* each axis has rays at the distances -2, -1, 0, 1 and 2 of these steps */
         uint across = whole ? uint(HALF / 2) : 0u, down = across * push.width;
         vec3 u1 = kd_sky_from(at - across) - n, u2 = kd_sky_from(at + across) - n, v1 = kd_sky_from(at - down) - n,
              v2 = kd_sky_from(at + down) - n;
@@ -216,7 +216,7 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
     float own = share.x * share.y;
-    if (RIM == 1u && !BRIGHT) /* the rest of the image comes from the rim */
+    if (RIM == 1u && !BRIGHT) /* the rim contributes the rest of the image */
         own *= 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y) + place)));
     if (!bright || own <= 0.0)
         return;
@@ -245,8 +245,8 @@ void note(uint at, vec2 place, float near, uint k, bool bright)
     } while (++i < all);
 }
 
-/* Lists the parts of a tile, as far as they exist: small tiles of a large tile, or rays of a small one. first: index in
- * the map of the tile's first ray, which is at (x, y). */
+/* Lists the existing parts of a tile: the small tiles of a large tile, or the rays of a small tile. first: index in the
+ * map of the tile's first ray, which is at (x, y). */
 void list(uint first, uint x, uint y)
 {
     const bool large = TILE == KD_STAR_TILE;

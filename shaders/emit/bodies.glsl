@@ -18,12 +18,12 @@
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
     F(least)                  /* 1/r of the outermost place that a body may reach */ \
-    /* x, y, z and radius of a ball that contains all bodies, M. Azimuths are mirrored, and 0 at the observer */ \
+    /* x, y, z and radius, M, of a ball that contains all bodies. Azimuths count from the observer, mirrored */ \
     F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* number of the tree's leaves, a power of two */
 /* clang-format on */
 #define KD_TABLES_bodies(T)
-#define KD_TRAIT_LIT 64u /* LIT: some bodies reflect light of the disk */
+#define KD_TRAIT_LIT 64u /* LIT: at least one body reflects light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
 /* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, and two children each. The last `leaves`
  * nodes belong to the bodies. The bodies follow the tree, with KD_BODY_WORDS each, in rows of four words:

@@ -11,10 +11,10 @@
 #define KD_COLOUR_LEAST 64.0
 #define KD_COLOUR_LEAST_BITS 0x42800000
 #define KD_COLOUR_OCTAVES 24           /* the highest temperature is 1.07e9 K */
-#define KD_COLOUR_MOST_BITS 0x4e7fffff /* bits of the float just below 64 K times 2^24 */
+#define KD_COLOUR_MOST_BITS 0x4e7fffff /* bits of the largest float below 64 K times 2^24 */
 #define KD_COLOUR_ROWS (KD_COLOUR_OCTAVES * KD_COLOUR_NODES)
 #define KD_TABLES_colour(T) \
-    T(colour, KD_COLOUR_ROWS)   /* red and blue, and the differences of both to the next row */ \
+    T(colour, KD_COLOUR_ROWS)   /* red, blue, and the differences of both from this row to the next */ \
     T(luminous, KD_COLOUR_ROWS) /* log2 of the fraction of the radiance that the eye perceives, and the difference to \
                                  * the next row */
 #endif

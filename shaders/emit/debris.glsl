@@ -11,15 +11,16 @@
 #ifndef KD_BLOCK_debris
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
-    U(turn) U(rows) U(columns)      /* number of nodes of a whole turn, of rows of nodes, and of nodes in a row */ \
+    U(turn) U(rows) U(columns) /* numbers of nodes in a whole turn, of rows, and of nodes in a row */ \
     F(first_row) F(first_column) F(rows_octave) /* log2 r of the first row; first azimuth; rows per doubling of r */ \
-    F(depth)                    /* D, optical depth for one body per M^2, over the area of a node at r = 1 */ \
+    F(depth)                /* D, the optical depth for one body per M^2, divided by a node's area at r = 1 */ \
     F(temperature)              /* temperature, relative to the disk's largest */
 /* clang-format on */
 #define KD_TABLES_debris(T)
 #define KD_TRAITS_debris(T) T(VISIBLE)
 #define KD_BUFFERS_debris(B) \
-    B(4, floats, debris) /* three numbers a node: matter, in bodies, and matter times v_r and v_phi */
+    B(4, floats, debris) /* three numbers for each node: its matter, in bodies; matter times v_r; matter times v_phi \
+                          */
 #define KD_PASS_debris(P)
 #endif
 

@@ -12,18 +12,18 @@
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening factor, K */ \
     F(luminous) /* log2 of the fraction of light that the eye perceives, for a black body of temperature `peak` */ \
-    F(quanta)              /* x = h nu/(k T), with nu the observed frequency and T the temperature `peak` */ \
+    F(quanta)              /* x = h nu/(k T) for the observed frequency nu and T = `peak` */ \
     F(quanta_mean)         /* (1 - exp(-x))/x for the x above */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
 /* Tables. disk: (T/T_peak) r^(3/4) as a function of y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next
- * row. With reflected light of temperature T_c also T_c/T_peak, and r^3 times the ratio of that light's flux to the
- * flux of a black body of T_c. atmosphere: ratio of the emitted intensity to that of an isotropic surface of the same
- * flux, as a function of the square root of the cosine to the normal. Each row has the coefficients of a cubic in the
- * place within its cell. */
+ * row. With reflected light of temperature T_c, a row also has T_c/T_peak, and r^3 times the ratio of that light's flux
+ * to the flux of a black body of T_c. atmosphere: ratio of the emitted intensity to that of an isotropic surface of the
+ * same flux, as a function of the square root of the cosine to the normal. Each row has the coefficients of a cubic in
+ * the place within its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
-#define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of being bolometric */
-#define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission, by the table `atmosphere` */
+#define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity; otherwise it is bolometric */
+#define KD_TRAIT_LIMB 128u       /* the table `atmosphere` gives the dependence of light on the angle of emission */
 #define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
 #define KD_TRAIT_REFLECTED 8192u /* the disk reflects light that returns to it */
 #define KD_TRAITS_disk(T) T(DOPPLER) T(REDSHIFT) T(VISIBLE) T(LIMB) T(FREQUENCY) T(REFLECTED)
@@ -32,7 +32,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Gas at a crossing. t: its observed temperature divided by the disk's largest. alpha: its opacity. */
+/* Gas at a crossing. t: observed temperature, divided by the disk's largest temperature. alpha: opacity. */
 struct kd_gas { float t, alpha; };
 
 /* B_nu(t T)/B_nu(T) for the disk's largest colour temperature T. With x = h nu/(k T) and m(y) = (1 - exp(-y))/y the
@@ -45,7 +45,7 @@ float kd_disk_intensity(float t)
     return t > 0.0 ? t * exp(x - y) * emission.disk.quanta_mean / mean : 0.0;
 }
 
-/* Light of a black body. t: its temperature divided by the disk's largest. */
+/* Light of a black body. t: temperature, divided by the disk's largest temperature. */
 vec3 kd_black_body(float t, uint traits)
 {
     if ((traits & KD_TRAIT_FREQUENCY) != 0u)

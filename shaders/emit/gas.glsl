@@ -15,8 +15,8 @@
  * Opacity. A layer of optical depth tau along its normal absorbs 1 - exp(-tau/cos) of light that crosses it at an angle
  * theta to the normal, in the frame of the gas (cosine.glsl). */
 #ifndef KD_BLOCK_gas
-#define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
-#define KD_GAS_RINGS 80 /* the radii from 1 to 1e6 M need this number of rings, including one beyond the end */
+#define KD_GAS_RING 0.2 /* ln of the ratio of the radii of neighbouring rings */
+#define KD_GAS_RINGS 80 /* number of rings for radii from 1 to 1e6 M, including one beyond the end */
 #define KD_GAS_OCTAVES 8
 #define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by one radian */
 #define KD_GAS_HASTE 1.6  /* ratio of an octave's drift to that of the octave before */
@@ -26,18 +26,18 @@
     F(first) /* log2 of the innermost ring's radius */ \
     F(cells) /* K, the number of cells of the first octave over a length equal to r */ \
     F(shear) \
-    F(warp)        /* displacement by an octave at one standard deviation of its noise, in its own cells */ \
+    F(warp)        /* displacement by an octave where its noise is one standard deviation, in cells of this octave */ \
     F(loudness)    /* s_0, the amplitude of the first octave */ \
     F(persistence) /* s_(k+1)/s_k, the ratio of an octave's amplitude to that of the octave before */ \
-    F(finer) /* squared ratio between octaves of a ray's step counted in cells, with the effect of displacement */ \
-    F(depth) /* optical depth along the normal where the flux is largest */
+    F(finer)       /* squared ratio, octave to octave, of a ray's step in cells, including displacement */ \
+    F(depth)       /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 /* The table `gas` has a row for each ring, then one for each octave. A ring's row holds the ring's azimuth minus the
  * observer's in radians, Omega, and the factor that converts a place in the ring's plane to a place in the next ring's
  * plane. An octave's row holds the drift of its lattice: the fraction of a cell, and the whole cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
-#define KD_TRAIT_GAS_DEEP 64u /* opacity follows from the optical depth */
-#define KD_TRAIT_GAS_SHIFT 8u /* from this bit on, the traits hold the number of octaves; 0: no turbulence */
+#define KD_TRAIT_GAS_DEEP 64u /* the opacity is computed from the optical depth */
+#define KD_TRAIT_GAS_SHIFT 8u /* first bit of the number of octaves in the traits; 0 octaves: no turbulence */
 #define KD_TRAIT_GAS_OCTAVES (15u << KD_TRAIT_GAS_SHIFT)
 #define KD_TRAITS_gas(T) KD_TRAITS_disk(T) T(SLOW) T(GAS_DEEP) T(GAS_OCTAVES)
 #define KD_BUFFERS_gas(B)
@@ -46,7 +46,7 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = (TRAITS_gas & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
-/* true if the scene's gas, thin or thick, is shown as it was when its light left it */
+/* true if the disk's gas, thin or thick, is shown as it was when its light left it */
 const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 
 /* Gradient at a point of the lattice, times 32768. The lattice repeats after 65536 cells. */
@@ -169,7 +169,7 @@ kd_glow kd_gas_glow(kd_sample s)
             flux += light.y * square.x * square.x;
         }
         float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
-        /* where alpha is 0, the opacity stays 0: g may be NaN there, because u^t does not exist inside the photon orbit
+        /* an opacity of 0 is kept, because g may be NaN there: u^t does not exist inside the photon orbit
          */
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0;
     }

@@ -51,14 +51,14 @@ float kd_grid_fallen(float r)
  * time at which light left does the same. The two are added, so there is no cancellation. */
 float kd_grid_later(float w) { return kd_log(0.25 * kd_horizons(w, cam.root) / (w * w)) - kd_late(w); }
 
-/* Number of the frame at a place, with a fraction between two frames. Before the first frame it is the first, and after
- * the last frame the last. */
+/* Number of the frame at a place, with a fraction between two frames. It is kept between the first and the last frame.
+ */
 float kd_grid_frame(kd_midst p)
 {
     float at = emission.plasma.grid_now;
     if (KD_GRID_SLOW) {
         float ago = p.ago;
-        /* a loop instead of an if, as below */
+        /* a loop is used instead of an if, for the reason given below */
         for (uint n = 0u; n < (emission.plasma.grid_late > 0.0 ? 1u : 0u); n++)
             ago -= kd_grid_later(p.w);
         at -= emission.plasma.grid_per_time * ago;
@@ -76,7 +76,7 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     at.row = clamp((log2_r - emission.plasma.grid_r) * emission.plasma.grid_per_r, 0.0, float(most.x));
     at.column = clamp((theta - emission.plasma.grid_theta) * emission.plasma.grid_per_theta, 0.0, float(most.y));
     at.per_theta = emission.plasma.grid_per_theta;
-    /* lavapipe skips loop rounds that are not needed, but executes both branches of an if */
+    /* lavapipe skips the rounds of a loop that are not needed, but executes both branches of an if */
     for (uint n = 0u; n < min(emission.plasma.grid_steps, 1u); n++) {
         float steps = float(emission.plasma.grid_steps), row = min(floor(at.row), float(most.x - 1u)),
               x = clamp(theta * (steps / KD_PI), 0.0, steps), cell = min(floor(x), steps - 1.0);
@@ -91,8 +91,8 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     return at;
 }
 
-/* Sums the nodes at the corners of a cell, with weights: in the two layers next to the place, and in the two frames
- * about its time. node: function that reads a node. */
+/* Weighted sum of the nodes at the corners of a cell, in the two layers next to the place and in the two frames about
+ * its time. node: function that reads a node. */
 #define KD_GRID_SUM(node, times) \
     for (uint m = 0u; m < (times); m++) { \
         uint n = KD_GRID_SERIES && m >= rounds ? m - rounds : m, k = first + n, from = at + (k < layers ? k : 0u); \
@@ -128,16 +128,16 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     }
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops instead of an if, as above; one of the two loops has no rounds */
+    /* two loops are used instead of an if, for the reason given above; one of them has no rounds */
     KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? times : 0u)
     KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : times)
     return sum;
 }
 
 /* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
- * one of the finest rows that a grid may have. Columns and layers next to the axis are finer, but the grain does not
- * follow them. With slow light, frames are edges as well; their distance along the ray is estimated as if the light
- * moved along the radius. */
+ * one of the finest rows that a grid may have. Columns and layers next to the axis are finer, but do not shorten the
+ * grain. With slow light, frames are edges as well; their distance along the ray is estimated as if the light moved
+ * along the radius. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);

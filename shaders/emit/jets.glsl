@@ -23,11 +23,11 @@
     /* log2 of the light per M of length at the spine's inner edge, in units of the disk's largest surface \
      * brightness */ \
     F(brightness) \
-    F(sheath)              /* the sheath's fraction of the light, 0 to 1 */ \
+    F(sheath)              /* fraction of the light that comes from the sheath, 0 to 1 */ \
     F(falloff) F(power)    /* falloff: exponent of the profile along the jet. power: 2 + alpha */ \
     F(gamma) F(gamma_beta) \
     F(counter)             /* ratio of the lower jet's light to the upper jet's */ \
-    F(temperature)         /* temperature of the black body that has the colour of the light, K */
+    F(temperature)         /* temperature, K, of a black body of the light's colour */
 /* clang-format on */
 #define KD_TABLES_jets(T)
 #define KD_TRAITS_jets(T)
@@ -63,8 +63,8 @@ kd_medium kd_jets_along(kd_midst p)
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness are computed in one exponential. Separately they could overflow even if their
-     * product is 1: the 12th power of g may be 2^92, and the 10th power of r/inner 2^199. */
+    /* Both powers and the brightness are computed as one exponential, because separate factors could overflow even if
+     * their product is 1: the 12th power of g may be 2^92, and the 10th power of r/inner 2^199. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));

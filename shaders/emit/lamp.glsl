@@ -4,11 +4,11 @@
 #define KD_LAMP_TABLE 512
 /* clang-format off */
 #define KD_BLOCK_lamp(F, U, A) \
-    F(first) F(per_row)    /* ln r of the first row; number of rows per unit of ln r */
+    F(first) F(per_row)    /* ln r of the table's first row; number of rows per unit of ln r */
 /* clang-format on */
-/* The table `lamp` holds four numbers for each r. For light that goes from the lamp to r: the coordinate time minus r,
- * and its difference to the next row. Then r^3 times the light that the gas receives, divided by its largest value on
- * the disk, and its difference to the next row. */
+/* The table `lamp` holds four numbers for each r. The first is the coordinate time of light from the lamp to r, minus
+ * r. The third is r^3 times the light that the gas receives, divided by its largest value on the disk. The second and
+ * the fourth are the differences of these two from this row to the next. */
 #define KD_TABLES_lamp(T) T(lamp, KD_LAMP_TABLE)
 #define KD_TRAITS_lamp(T)
 #define KD_BUFFERS_lamp(B)

@@ -8,8 +8,8 @@
  *   u^t = (r^2 + a s) / (r P),   Omega = s / (r^2 + a s). */
 #ifndef KD_BLOCK_orbit
 #define KD_BLOCK_orbit(F, U, A)
-#define KD_TRAIT_DOPPLER 2u  /* for emitters on orbits: apply the factor 1 / (E - Omega L) */
-#define KD_TRAIT_REDSHIFT 4u /* for emitters on orbits: apply the factor 1 / u^t */
+#define KD_TRAIT_DOPPLER 2u  /* emitters on orbits: g includes the factor 1 / (E - Omega L) */
+#define KD_TRAIT_REDSHIFT 4u /* emitters on orbits: g includes the factor 1 / u^t */
 #endif
 
 #ifdef KD_EMIT_CODE

@@ -8,7 +8,7 @@
 /* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
-/* the density on the disk's grid, followed by the density on the grid of plunge.glsl */
+/* density relative to the expected one: on the disk's grid, then on the grid of plunge.glsl */
 #define KD_BUFFERS_particles(B) B(0, floats, density)
 #define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif

@@ -12,36 +12,36 @@
 #define KD_BLOCK_plasma(F, U, A) \
     F(inner) F(outer)      /* M */ \
     F(frequency)           /* log2 of the observed frequency in GHz */ \
-    F(light) F(depth)      /* log2 of the units of light and of depth in kd_radiates, per M */ \
-    F(gold_light) F(gold_depth) /* Gold et al.: log2 of light and depth per M, at density 1 and 230 GHz */ \
+    F(light) F(depth)      /* log2 of the units, per M, of light and of depth in kd_radiates */ \
+    F(gold_light) F(gold_depth) /* model of Gold et al.: log2 of light and of depth per M, at density 1 and 230 GHz */ \
     F(gold_index) F(gold_flat) F(gold_momentum) \
-    F(density) F(density_index) /* log2 of the density at r = 1 M, cm^-3; exponent of its decrease with r */ \
+    F(density) F(density_index) /* log2 of the density in cm^-3 at r = 1 M; exponent of its decrease with r */ \
     F(heat) F(heat_index)  /* log2 of Theta at r = 1 M; exponent of its decrease with r */ \
-    F(steep)               /* ratio of distance from the axis to scale height; 0 if there is no layer */ \
-    F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; exponent of its decrease with r */ \
-    F(power_index) F(power_light) F(power_depth) /* power law: index, factor of light, factor of depth */ \
+    F(steep)                /* ratio of distance from the axis to the layer's height; 0 if there is no layer */ \
+    F(field) F(field_index) /* log2 of B^2/n in gauss^2 cm^3 at r = 1 M; exponent of its decrease with r */ \
+    F(power_index) F(power_light) F(power_depth) /* electrons' power law: index, factors of light and depth */ \
     F(torus_momentum) F(torus_edge) F(torus_index) /* torus: angular momentum, offset of ln h, exponent of h - 1 */ \
-    U(grid_rows) U(grid_columns) U(grid_layers) /* numbers of nodes in r, theta, phi; 1 in phi: axisymmetric */ \
-    U(grid_steps) U(grid_place_rows) /* uneven columns: cells in theta (0: even), rows of the table */ \
-    /* for each direction: coordinate of the first node (log2 for r), and number of nodes per unit */ \
+    U(grid_rows) U(grid_columns) U(grid_layers) /* grid: nodes in r, theta and phi (1 in phi if axisymmetric) */ \
+    U(grid_steps) U(grid_place_rows) /* uneven columns: cells in theta (0: even); rows of their table */ \
+    /* grid, for each of log2 r, theta and phi: coordinate of the first node, and number of nodes per unit */ \
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
     F(grid_fall)           /* a if the grid's phi is an ingoing coordinate, otherwise 0 */ \
     F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
-    U(grid_frames)         /* number of frames in time; all nodes of a frame precede the next frame */ \
-    F(grid_now) F(grid_per_time) /* number of the frame at the scene's time, with a fraction; frames per M */ \
+    U(grid_frames)         /* number of frames in time; a frame's nodes are stored together */ \
+    F(grid_now) F(grid_per_time) /* number, with a fraction, of the frame at the scene's time; frames per M of time */ \
     F(grid_late)           /* 1 if the grid's time is that of ingoing coordinates, otherwise 0 */ \
     U(grid_packed)         /* 1 if a node is one quad, 0 if it is two */ \
-    /* packed nodes: least values and ranges of log2 density and of log2 Theta; units of velocity and of field */ \
+    /* packed nodes: least value and range of log2 density; the same of log2 Theta; units of velocity and of field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
     F(kappa) F(kappa_width) /* for a kappa distribution. `kappa` is log2(kappa - 3). */ \
-    /* the others are named as in physics/disk/synchrotron.h */ \
+    /* constants of the kappa distribution, named as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
 /* clang-format on */
 #define KD_KAPPA_FIRST -10.0 /* log2(z) of the table's first row */
 #define KD_KAPPA_OCTAVE 16   /* number of rows for each octave of z */
 #define KD_KAPPA_ROWS 640
-/* log2 of F(z), and the difference of this value to the next row */
+/* log2 of F(z), and the difference from this row to the next */
 #define KD_TABLES_plasma(T) T(kappa, KD_KAPPA_ROWS)
 #define KD_TRAIT_PLASMA_GOLD 2u
 #define KD_TRAIT_PLASMA_VERTICAL 4u /* the field is along the axis */
@@ -62,7 +62,7 @@
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid) B(6, quad_texels, plasma_texels)
 #define KD_GRID_CELLS 2.0 /* largest number of cells of the matter grid that a grain covers */
 #define KD_PASS_plasma(P)
-#define KD_TORUS_COLD -24.0 /* stands for log2(h - 1) if h is 1 */
+#define KD_TORUS_COLD -24.0 /* value in place of log2(h - 1) if h is 1 */
 #define KD_PLASMA_SEEN \
     7.0 /* in scale heights; beyond this the density is taken as 0, as it is below 2e-11 of that in the plane */
 #endif
@@ -260,7 +260,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        /* no fit is valid at zero temperature, but there is no matter then */
+        /* no fit is valid at zero temperature, but where it is zero there is no matter */
         m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
@@ -287,7 +287,7 @@ kd_kappa_laws kd_kappa_of(kd_electrons e, float frequency)
           row = floor(place);
     vec4 f = kd_table_row(kappa, uint(row));
     float below = min(z - KD_KAPPA_FIRST, 0.0) * (k - 1.0 / 3.0),
-          size = f.x + (place - row) * f.y + below; /* below the table's first row, the law z^a */
+          size = f.x + (place - row) * f.y + below; /* below the table's first row F(z) follows the law z^a */
     return kd_kappa_laws(z, x, emission.plasma.kappa_light_low + x * (1.0 / 3.0),
                          emission.plasma.kappa_light_high - 0.5 * (k - 2.0) * x,
                          emission.plasma.kappa_depth_low + size - x * (2.0 / 3.0),

@@ -15,19 +15,19 @@
 #define KD_PLUNGE_TABLE 512
 /* clang-format off */
 #define KD_BLOCK_plunge(F, U, A) \
-    F(first) F(last)       /* w at the start of the plunge and at its end */ \
+    F(first) F(last)       /* w = 1/r at the start and at the end of the plunge */ \
     F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
-    F(stretch) F(bend)     /* coefficients of u^r in the formula above; 1 and 0 without charge */ \
+    F(stretch) F(bend)     /* stretch and bend of the formula above; 1 and 0 without charge */ \
     F(temperature)         /* temperature, relative to the disk's largest */ \
-    F(depth)               /* optical depth at r |u^r| = 1, for the expected number of particles */ \
-    F(log_first) F(step_)  /* first argument of the table; number of entries per unit of the argument */ \
-    F(laps) F(turns)       /* per M of time: fraction of the plunge, and turns at the ISCO */ \
+    F(depth)               /* optical depth of the expected number of particles where r |u^r| = 1 */ \
+    F(log_first) F(step_)  /* argument of the table's first entry; number of entries per unit of the argument */ \
+    F(laps) F(turns)       /* fraction of the plunge, and turns at the ISCO, per M of time */ \
     U(at)                  /* offset of this grid in the buffer, after the grid of the other particles */ \
     U(rows) U(columns) \
-    U(lap_rows) U(lead_rows) /* number of rows from start to end; number of rows before the start */
+    U(lap_rows) U(lead_rows) /* number of rows from the plunge's start to its end; number of rows before the start */
 /* clang-format on */
 #define KD_TABLES_plunge(T) \
-    T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, against log2 (r_isco - r)/(r - r+) */
+    T(plunge, KD_PLUNGE_TABLE) /* phase and azimuth, in turns, as functions of log2 (r_isco - r)/(r - r+) */
 #define KD_TRAITS_plunge(T) KD_TRAITS_disk(T)
 #define KD_BUFFERS_plunge(B)
 #define KD_PASS_plunge(P)
@@ -57,7 +57,7 @@ float kd_plunge_speed(float w)
     return -sqrt(gap * (2.0 / 3.0) / r0 * (emission.plunge.stretch - emission.plunge.bend * gap)) * gap;
 }
 
-/* The shift g from both effects, Doppler shift and gravity, or from only one of them. */
+/* The shift g due to the Doppler effect, to gravity, or to both. */
 float kd_plunge_shift(kd_sample s, bool doppler, bool redshift)
 {
     float a = cam.spin, w2 = s.w * s.w, d = kd_delta(s.w, cam.root);

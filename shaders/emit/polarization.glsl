@@ -18,9 +18,9 @@
  * Stokes Q and U follow the IAU (1973): the angle of the electric field counts from the top of the picture, taken as
  * north, to its left, taken as east. */
 #ifndef KD_BLOCK_polarization
-/* rows as a function of sqrt(mu), with mu the cosine of emission: polarised fraction in this row and in the next */
+/* polarised fraction as a function of sqrt(mu), with mu the cosine of emission: value in this row and in the next */
 #define KD_SCATTERING_ROWS 128
-/* polarised fraction for an ordered field, times the field's degree of order */
+/* polarised fraction: that of an ordered field, times the field's degree of order */
 #define KD_BLOCK_polarization(F, U, A) F(fraction)
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
 #define KD_TRAIT_SCATTERED \
@@ -84,7 +84,7 @@ kd_polarized kd_polarization_left(kd_sample s, bool down)
 {
     float a = cam.spin, w = s.w, w2 = w * w, delta = kd_delta(w, cam.root), root = sqrt(max(delta, 1e-12));
     bool falls = kd_plunge_falls(s);
-    /* Vectors of the light, the gas and the field in Carter's frame. Their components along t and r are multiplied by
+    /* Vectors of the light, the gas and the field in Carter's frame. Their t and r components are multiplied by
      * sqrt(Delta)/r. */
     float k_theta = (down ? w : -w) * sqrt(max(s.q, 0.0));
     vec4 k = vec4(s.energy * (1.0 + a * a * w2) - a * w2 * s.momentum, s.slope, root * k_theta,

@@ -18,9 +18,9 @@
     F(brightness) \
     F(spacing)             /* spacing of the grid, radians */ \
     F(spread)              /* factor for the brightness of the panorama */ \
-    U(columns) U(rows)     /* columns and rows of the panorama's finest level; both are powers of two */ \
+    U(columns) U(rows)     /* numbers of columns and rows of the panorama's finest level, powers of two */ \
     F(texel)               /* log2 of the size of a texel of the finest level, radians */ \
-    /* rows of the rotation from directions, with azimuths minus the observer's, to galactic directions */ \
+    /* rows of the matrix that rotates directions to galactic ones; azimuths are relative to the observer's */ \
     F(xx) F(xy) F(xz) F(yx) F(yy) F(yz) F(zx) F(zy) F(zz)
 /* clang-format on */
 #define KD_TRAIT_SKY_GRID 64u

@@ -9,15 +9,15 @@
 #define KD_SPOT_MAX 16
 /* clang-format off */
 #define KD_BLOCK_spot(F, U) \
-    /* r of the centre; azimuth of the centre minus the observer's at the time that the picture shows, radians */ \
+    /* r: radius of the centre, M. phi: azimuth of the centre minus the observer's, radians, at the picture's time */ \
     F(r) F(phi) \
-    F(omega)                 /* decrease of phi for each M of light delay */ \
-    F(sharp) F(reach)        /* log2(e)/(2 size^2); squared distance beyond which brightness is 0 */ \
+    F(omega)                 /* decrease of phi per M of light delay */ \
+    F(sharp) F(reach)        /* log2(e)/(2 size^2); square of the distance beyond which brightness is 0 */ \
     F(brightness) F(power)   /* brightness at the centre; exponent of g, which is 3 + index */ \
     F(temperature)           /* K */
 /* clang-format on */
 #define KD_BLOCK_spots(F, U, A) A(kd_spot_block, at, KD_SPOT_MAX)
-#define KD_TRAIT_SPOTS_SHIFT 8u /* from this bit on, the traits hold the number of spots */
+#define KD_TRAIT_SPOTS_SHIFT 8u /* first bit of the number of spots in the traits */
 #define KD_TRAIT_SPOTS (31u << KD_TRAIT_SPOTS_SHIFT)
 #define KD_TABLES_spots(T)
 #define KD_TRAITS_spots(T) T(DOPPLER) T(REDSHIFT) T(SLOW) T(SEPARATE_PHOTOMETRY) T(SPOTS)

@@ -22,17 +22,17 @@
 #ifndef KD_BLOCK_stokes
 /* clang-format off */
 #define KD_BLOCK_stokes(F, U, A) \
-    F(turn) F(convert) /* log2 of the power law's factors: of rho_V, and of rho_Q */ \
+    F(turn) F(convert) /* power law: log2 of the factors of rho_V and of rho_Q */ \
     F(gamma2)          /* log2 of the squared least gamma of the power law */ \
     /* parameters of a kappa distribution, as in physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
-    U(kappa_node) F(kappa_past) /* index of the next lower kappa of the fits; fraction of the way to the next */ \
+    U(kappa_node) F(kappa_past) /* index of the fits' next lower kappa; fraction of the way to the next higher one */ \
     F(whole)           /* fraction of linear polarisation that remains in a disordered field */
 /* clang-format on */
 #define KD_TABLES_stokes(T)
 #define KD_TRAIT_STOKES_FARADAY 2u
-#define KD_TRAIT_STOKES_DEXTER 4u /* rho_V of thermal electrons as given by Dexter 2016 */
+#define KD_TRAIT_STOKES_DEXTER 4u /* rho_V of thermal electrons follows Dexter 2016 */
 #define KD_TRAITS_stokes(T) T(STOKES_FARADAY) T(STOKES_DEXTER)
 #define KD_BUFFERS_stokes(B)
 #define KD_PASS_stokes(P)
@@ -46,8 +46,8 @@
           * it */
 
 /* State along the ray. here: the medium at the current place, per unit of the affine parameter. right: kappa of the
- * unit vector to the right of the ray. seen: Q, U and V of the light so far. front: transfer of the medium passed so
- * far, for light from behind that medium. */
+ * unit vector that points right in the picture. seen: Q, U and V of the light so far. front: transfer of the medium
+ * passed so far, for light from behind that medium. */
 kd_stokes kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
 vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
@@ -147,7 +147,7 @@ kd_polarises kd_stokes_by_power(kd_electrons e, float frequency, float index)
         vec2((index + 1.0) / (index + 7.0 / 3.0), 0.684 * pow(index, 0.49) * 1.73205081 * cotangent * root));
     p.depth = kd_stokes_held(vec2(pow(0.034 * index - 0.0344, 0.086), way * pow(0.71 * index + 0.0352, 0.394) *
                                                                           pow(max(3.1 * open_, 1e-30), 0.512) * root));
-    /* l: (1 - y^n)/n with n = p/2 - 1 and y = gamma_min^2 nu_c sin/nu. It is 0 below the frequency of the slowest
+    /* l: (1 - y^n)/n with n = p/2 - 1 and y = gamma_min^2 nu_c sin(theta)/nu; 0 below the frequency of the slowest
      * electrons. */
     float n = 0.5 * index - 1.0, l = 0.69314718 * min(emission.stokes.gamma2 - x, 0.0), nl = n * l,
           less = abs(nl) < 0.01 ? -l * (1.0 + 0.5 * nl) : (1.0 - exp(min(nl, 80.0))) / n;

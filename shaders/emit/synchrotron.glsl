@@ -26,7 +26,7 @@ struct kd_radiates { float light, depth, steep; };
 #define KD_LOG2_GYRO -8.48074447    /* log2 of e/(2 pi m_e c), which is 2.79924899e-3 GHz per gauss */
 #define KD_LOG2_QUANTUM -36.8464093 /* log2 of h GHz/(m_e c^2) */
 #define KD_LOG2_THERMAL -2.60339137 /* log2 of sqrt(2) pi/27 */
-#define KD_LOG2_LEAST -1000.0       /* stands for the log2 of 0 */
+#define KD_LOG2_LEAST -1000.0       /* value in place of log2 of 0 */
 
 /* log2(e^x - 1), given log2(x). */
 float kd_log2_expm1(float log2_x)

@@ -14,11 +14,11 @@
  * in its noise. */
 #ifndef KD_BLOCK_thick
 #define KD_THICK_REACH 4.5 /* height at which the gas ends, in units of H */
-/* density in the middle of the column for height 1, such that the integral over the column is 1 */
+/* density in the middle of a column of height H = 1 whose integral over the column is 1 */
 #define KD_THICK_AMID 0.399624938
 /* reciprocal standard deviation of gradient noise with the gradients of a cube */
 #define KD_THICK_NOISE 5.237147522273636
-#define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first octave do not shorten stretches */
+#define KD_THICK_FAINT 0.15 /* an octave fainter than this fraction of the first octave does not shorten stretches */
 #define KD_THICK_HASTE \
     4.0 /* slow light: largest time, in M per M along the ray, that shortens a grain. Beyond that, next to the \
          * horizon, the gas is hardly visible */
@@ -28,10 +28,10 @@
  * would take thousands of stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
-    3.0 /* cells in height for each cell in the plane; streaks are longer than high by this factor */
+    3.0 /* number of cells in height per cell in the plane: streaks are longer than high by this factor */
 /* clang-format off */
 #define KD_BLOCK_thick(F, U, A) \
-    F(height) F(flare)     /* H/R at 10 M; exponent of its growth with R/10 */ \
+    F(height) F(flare)     /* H/R at R = 10 M; exponent of its growth with R/10 */ \
     F(inner) F(outer)      /* M */
 /* clang-format on */
 #define KD_TABLES_thick(T)
@@ -118,7 +118,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y),
                                   (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
-    if (KD_GAS_SLOW) { /* when the light left the gas, the angle between the rings was different */
+    if (KD_GAS_SLOW) { /* the angle between the rings is taken at the time when the light left the gas */
         vec4 next_ring = kd_table_row(gas, two.row);
         two.ahead = next_ring.y * p.ago;
         psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));
@@ -138,8 +138,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     /* visibility of the octave, by the amount of gas; octaves begin to fade at three times the
-                      * limit */
+                     /* visibility of the octave, which depends on the amount of gas; octaves begin to fade at three
+                      * times the limit */
                      1.0;
         if (!(seen > 0.0))
             break;

@@ -12,7 +12,7 @@
     F(inner) F(outer)      /* M */ \
     F(emissivity)          /* emission per unit of length, 1/M; the unit is the disk's largest surface brightness */ \
     F(opacity)             /* optical depth per unit of length, 1/M */ \
-    F(temperature)         /* temperature of the black body that has the colour of the light, K */
+    F(temperature)         /* temperature, K, of a black body of the light's colour */
 /* clang-format on */
 #define KD_TABLES_volume(T)
 #define KD_TRAITS_volume(T) T(REDSHIFT)

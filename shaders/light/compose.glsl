@@ -4,10 +4,10 @@
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: time, M, by which the sample's light left earlier than light that shows the scene's time.
- * energy, momentum, q: E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the
- * ray's footprint at the sample, 0 if no emitter needs them (shared/lens.h). cosine: cosine of the angle between light
- * and normal, in the frame of the gas where the light left it; 0 if no emitter needs it (emit/cosine.glsl). */
+/* A sample of a ray. ago: how much earlier, M, the sample's light left than light that shows the scene's time. energy,
+ * momentum, q: E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: size and shape
+ * of the ray's footprint at the sample (shared/lens.h), 0 if no emitter needs them. cosine: cosine of the angle between
+ * light and normal, in the frame of the gas where the light left it; 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
@@ -29,11 +29,11 @@ struct kd_spread { vec3 plane, rise; };
 /* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: derivatives of w and u by Mino time. Mino time
  * grows in the direction of tracing, which is opposite to the light's. energy, momentum, q: E, L and Q in units of the
  * energy that the observer measures. These constants belong to the arriving photon, which has p_r = dw/kd_delta(w) and
- * p_theta = du/sin(theta). speed: length of the path in M per unit of Mino time, as if space were flat; grains are
- * lengths of this kind. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and
- * spread are 0 without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at
- * the extremes of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the
- * ray's innermost crossing of the plane, or 0 if that is unknown. */
+ * p_theta = du/sin(theta). speed: length of the path in M per unit of Mino time, as if space were flat. A grain is such
+ * a length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are 0
+ * without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at the extremes
+ * of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's
+ * innermost crossing of the plane, or 0 if that is unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -78,14 +78,15 @@ KD_EMITTERS(KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_SPEC_TRAIT_, KD_S
 const int KD_VOLUMES =
     0 KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_PRESENT_, KD_NO_EMITTER_);
 
-/* limit of the light of one contribution, because larger values would overflow when summed */
+/* limit of the light of one contribution; sums of larger values would overflow */
 #define KD_BEAM_MOST 1e30
 
 #define KD_EMIT_CODE
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
-/* First: true if any emitter is visible at crossings. Second: true if some luminance is kept separately. */
+/* KD_GLOWS: true if any emitter has light at crossings. KD_SEPARATE_PHOTOMETRY: true if some luminance is kept
+ * separately. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS =
     0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
@@ -149,7 +150,8 @@ kd_medium kd_medium_at(kd_midst p)
     return sum;
 }
 
-/* Advances a ray through a uniform medium by a length `way` of the affine parameter. The result is exact for any depth.
+/* Advances a ray through a uniform medium by the length `way` of the affine parameter. The result is exact for any
+ * depth.
  */
 void kd_beam_along(inout kd_beam beam, kd_medium medium, float way)
 {

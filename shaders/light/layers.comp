@@ -36,7 +36,7 @@ float kd_layer_depth(kd_sample s)
 
 /* Least size of a footprint. A ray has no footprint if it has no neighbours, or if its neighbours are indistinguishable
  * from it in 32 bits (comp/footprint.comp). */
-#define KD_FOOTPRINT_LEAST 1e-6 /* relative to r, and in radians */
+#define KD_FOOTPRINT_LEAST 1e-6 /* on the disk relative to r; in the sky in radians */
 float kd_layer_size(float footprint, float least)
 {
     return footprint < KD_FOOTPRINT_EDGE && footprint >= least ? footprint : KD_NOTHING;
@@ -46,7 +46,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 {
     uint plane = at + n * slice.stride;
     bool listed =
-        /* true if the rays are round the critical curve instead of on the camera's grid */
+        /* true if the rays are listed ones about the critical curve, not those of the camera's grid */
         (QUANTITIES & KD_LENS_ALPHA) != 0u;
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
@@ -119,7 +119,7 @@ vec4 light(uvec2 place, uint at, uint pixel)
 }
 #endif
 
-/* kd_layer_evpa: angle of the electric field, from north to east, in (-pi/2, pi/2]. The next function: degree of
+/* kd_layer_evpa: angle of the electric field, from north to east, in (-pi/2, pi/2]. kd_layer_polarized: degree of
  * polarisation. */
 float kd_layer_evpa(vec4 light)
 {
@@ -231,7 +231,7 @@ void main()
 #endif
         value = value_of_light(sum);
     } else {
-        /* the one ray that stands for the pixel in the grid: the middle one, or the one before the middle */
+        /* the ray of the grid that stands for the pixel: the middle ray, or the ray before the middle */
         uvec2 place = uvec2(px, py) * SIDE + (SIDE - 1u) / 2u;
         uint at = (place.y - slice.band0) * cam.width + place.x;
         value = OF_CROSSING ? of_crossing(place, at) : of_end(at);

@@ -13,7 +13,7 @@
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
-/* The push constants give these numbers, because they differ between dispatches: the same kernel follows a sample of
+/* These numbers are push constants, because they differ between dispatches: the same kernel also follows a sample of
  * pixels with finer steps (src/render/frame/march_error.c). */
 #define STEPS slice.steps /* number of steps per half period */
 #define FINE slice.fine   /* a stretch is at most 4/FINE grains long */
@@ -33,7 +33,7 @@
  * further within a stretch is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch is repeated if it is longer by this factor than its nodes allow */
-/* largest factor by which a grain is lengthened because the matter is barely visible behind other matter */
+/* largest factor by which a grain is lengthened where other matter almost hides the matter */
 #define KD_MARCH_BEHIND 1.5
 /* limit of loop passes, more than any ray needs. lavapipe may end a loop early; the count of passes shows that work was
  * left unfinished */
@@ -44,7 +44,7 @@
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
 #define KD_MARCH_ENDS 100u
-#define KD_MARCH_DEEP 1e3            /* a larger optical depth of a stretch makes no visible difference */
+#define KD_MARCH_DEEP 1e3            /* optical depth of a stretch beyond which there is no visible difference */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
 /* State of a ray that is traced in pieces, one dispatch each (KD_PIECES), because a driver's limit on loops stopped it.
@@ -107,7 +107,7 @@ float kd_quintic_root(kd_quintic q, float value, float low, float high)
     return t;
 }
 
-/* Narrows the range (from, to), in which q is monotone, to the part in which sign_ (q - value) is not negative. */
+/* Narrows the range (from, to), in which q is monotone, to the part where sign_ times (q - value) is not negative. */
 void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, inout float to)
 {
     float a = sign_ * (kd_quintic_at(q, from) - value), b = sign_ * (kd_quintic_at(q, to) - value);
@@ -340,14 +340,14 @@ void kd_march_add(inout vec3 sum, inout vec3 off, vec3 more)
     sum = t;
 }
 
-/* Integrates a part of a step inside the volumes. The part's contribution is summed separately. Its transmission is the
- * exponential of its depth. */
+/* Integrates a part of a step inside the volumes. The part's light and depth are summed separately, and its
+ * transmission is the exponential of its depth. */
 void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, uint order, float from,
                    float to, inout float stretch, inout bool lost)
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    /* length of the next stretch as a fraction of the step; if 0, it is unknown, and a trial stretch of length 0
+    /* length of the next stretch as a fraction of the step. 0 means unknown: a trial stretch of length 0 then
      * determines it */
     float wish = stretch / s.h;
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
@@ -360,7 +360,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         kd_stokes_trial polarised = kd_stokes_begin();
         KD_PROBE_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
-        vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three nodes */
+        vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth at each of the three nodes */
         for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough for the trial stretch */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
@@ -418,8 +418,9 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
 }
 
 /* State of a ray. The current step goes from p to q. side: side of the plane that p is on. crossed: number of crossings
- * so far. stretch: length of the next stretch, in Mino time. steps: number of steps. goes: there is a current step.
- * lost: the ray's end was not found. left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
+ * so far. stretch: length of the next stretch, in Mino time. steps: number of steps. goes: true if there is a current
+ * step. lost: true if the ray's end was not found. left: Mino time from p to a surface that ends the ray
+ * (light/meet.glsl). */
 struct kd_march_way {
     kd_geodesic m;
     kd_path p, q;
@@ -441,7 +442,7 @@ vec2 kd_quintic_hull(kd_quintic q)
 
 bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 
-/* True if a step may touch the volumes, or may contain a crossing with light. */
+/* True if a step may enter the volumes, or may contain a crossing with light. */
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
@@ -452,7 +453,7 @@ bool kd_march_matters(kd_march_way y)
     return (within && beside) || (KD_GLOWS && kd_march_crosses(y));
 }
 
-/* Completes the current step. The next step starts at its end, unless this step was the last one. */
+/* Completes the current step. The next step starts where this one ends, unless this was the last step. */
 void kd_march_leave(inout kd_march_way y)
 {
     bool crosses = kd_march_crosses(y), falls = y.q.y.w >= cam.horizon && (!INGOING || y.q.v.w > 0.0);
@@ -525,7 +526,8 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        /* order of the next crossing, or of the previous crossing while the ray moves away from the plane */
+        /* order of the crossing nearest on the ray: the next one or, while the ray moves away from the plane, the
+         * previous one */
         if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =

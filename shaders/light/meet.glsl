@@ -48,8 +48,8 @@ bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
     return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
 }
 
-/* A point of a ray in the frame of a body, at the time t' and the distance b. ahead: t' w. off2: square of b w. rate:
- * Mino time, in units of the step, per unit of t'. */
+/* A point of a ray in the frame of a body, at the time t' and the distance b. ahead: t' w. off2: (b w)^2. rate: Mino
+ * time, in units of the step, per unit of t'. */
 struct kd_met_sight { float ahead, off2, rate; };
 
 kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)
@@ -77,7 +77,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
     float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
     bool within = s0.ahead * s0.ahead + s0.off2 < in0 * in0, ends_within = s1.ahead * s1.ahead + s1.off2 < in1 * in1;
     bool passes = s0.ahead > 0.0 && (s1.ahead <= 0.0 || b.p.w <= 0.0);
-    /* The time of the point nearest to the centre in the body's frame, where t' = 0. */
+    /* Time at which t' = 0, where the ray is nearest to the centre in the body's frame. */
     float t = passes ? clamp(s0.ahead / max(s0.ahead - s1.ahead, 1e-30), 0.0, 1.0) : 1.0, enters = 2.0, off = 1.0;
     for (int k = 0; k < 3; k++) {
         kd_met_end e = kd_met_between(a, b, t);
@@ -90,7 +90,8 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
             enters = next - size * sqrt(max(1.0 - off, 0.0)) * s.rate;
     }
     bool meets = (passes || ends_within) && off < 1.0 && enters <= 1.0;
-    /* One more iteration from the surface found, because the ray's position and direction differ there. */
+    /* One more iteration from the surface just found, because the ray's position and direction there differ from those
+     * assumed. */
     t = clamp(enters, 0.0, 1.0);
     kd_met_end e = kd_met_between(a, b, t);
     kd_met_sight s = kd_met_sight_of(e, r0, r1, r2, v, own.x);

@@ -25,7 +25,7 @@ float kd_layer_temperature(kd_sample s)
 }
 
 #ifdef KD_MARCH
-/* g of a surface, by the emitter to which the surface belongs. */
+/* g of a surface, computed by the emitter to which the surface belongs. */
 float kd_layer_met_g(kd_met met)
 {
 #define KD_MET_G_(number, name) \

@@ -1,7 +1,8 @@
 /* Describes what each emitter contributes to one ray. If transfer.comp, which makes the picture, is compiled with
  * KD_PROBE, it writes records to binding 3 instead of light. Otherwise this file compiles to nothing. The first number
- * is the count of records, including those that did not fit. The records FRONT and WHOLE follow first, at fixed places,
- * so that other records cannot displace them. A record has KD_PROBE_RECORD numbers. The first number is its kind:
+ * written is the count of records, including those that did not fit. The records FRONT and WHOLE come next, at fixed
+ * places, so that other records cannot displace them. A record has KD_PROBE_RECORD numbers. The first number is its
+ * kind:
  *
  *   KD_PROBE_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), emission angle, transmission
  *                     of everything in front
@@ -92,8 +93,8 @@ void kd_probe_place(kd_sample s, float through)
 #define KD_PROBED_STOKES vec4(0.0)
 #endif
 
-/* Light and depth of each volume. kd_place_name: at a sample, per unit of the affine parameter. kd_tried_name: of the
- * current stretch. kd_probed_name: of all accepted stretches. */
+/* Light and depth of each volume. kd_place_name: values at a sample, per unit of the affine parameter. kd_tried_name:
+ * sums over the current stretch. kd_probed_name: sums over all accepted stretches. */
 float kd_probed_steps = 0.0, kd_probed_places = 0.0;
 #define KD_PROBE_NONE_(number, name)
 #define KD_PROBE_VOLUME_(number, name) \

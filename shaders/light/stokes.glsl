@@ -18,15 +18,15 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter. light: its emission. depth: optical depth for I. takes: absorption of Q, U and V. turns: rotation
- * of Q, U and V. */
+/* Matter along a length of the ray. light: its emission. depth: optical depth for I. takes: absorption of Q, U and V.
+ * turns: rotation of Q, U and V. */
 struct kd_stokes {
     vec4 light;
     float depth;
     vec3 takes, turns;
 };
-/* The effect of a length of matter. light: its own light, as it leaves at the side towards the observer. through: the
- * matrix that acts on light from behind. */
+/* The effect of this matter. light: its own light, as it leaves on the observer's side. through: the matrix that acts
+ * on light from behind. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
@@ -75,7 +75,7 @@ vec4 kd_stokes_sound(vec4 s)
     return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
-/* The mean of exp(-y s) for s from 0 to 1. Here y is real. The next function is for a complex y whose exp(-y) is given.
+/* The mean of exp(-y s) for s from 0 to 1. y is real. The next function takes a complex y, and exp(-y).
  */
 float kd_stokes_mean(float y)
 {

@@ -3,7 +3,7 @@
 #define KD_TABLES_GLSL
 
 layout(set = 0, binding = 2) uniform textureBuffer tables;
-/* First row in `tables` of each table, computed at compile time. */
+/* Index, in `tables`, of each table's first row; computed at compile time. */
 #define KD_T(table, rows) uint table;
 struct kd_table_places { KD_EMIT_TABLES };
 #undef KD_T

@@ -17,8 +17,8 @@ KD_SPEC_TRANSFER(KD_SPEC_U_, KD_SPEC_B_)
 #ifndef KD_PROBE
 layout(set = 0, binding = 3) KD_RADIANCE_ACCESS buffer Radiance { float radiance[]; };
 #ifdef KD_MARCH
-/* The buffer of light once more, as words, for the list of rays that were not completed. The list follows the light
- * (KD_LOST_...). */
+/* The buffer of light again, as words. After the light it holds the list of rays that were not completed (KD_LOST_...).
+ * */
 layout(set = 0, binding = 3) buffer Lost { uint lost_rays[]; };
 layout(set = 0, binding = 3) buffer Pieces { float pieces[]; };
 #endif
@@ -39,7 +39,7 @@ void forget_stokes()
     untold = false;
 }
 
-/* True if a crossing at w has light, or if w is negative, which marks a ray that was given up. */
+/* True if a crossing at w has light. Also true if w is negative, which marks a ray that was given up. */
 bool has_light(float w) { return w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most); }
 
 /* Composes the crossing of order n of the ray at `place` in the camera, with index `at` in the lens map. w = 1/r of the
@@ -99,7 +99,7 @@ bool lost = false; /* true if the current ray was given up */
 #include "light/march.glsl"
 #include "light/meet.glsl"
 
-/* Continues one ray to its end, including the light there, or to the end of its piece. */
+/* Continues one ray to its end, and adds the light there, or continues it to the end of its piece. */
 void follow_on(inout kd_beam beam, uvec2 place, uint at, uint pixel)
 {
     kd_follow(beam, place, at);
@@ -120,8 +120,8 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 #else
-/* w of the ray's first crossing with light, from crossing n on; 0 if there is none. Sets n to the number of that
- * crossing. A probe reports every crossing, with light or without. */
+/* w of the ray's first crossing with light, from crossing n on; 0 if there is none. Sets n to that crossing's number.
+ * For a probe every crossing counts, with light or without. */
 float next_crossing(uint at, inout uint n)
 {
     float w = 0.0;
@@ -218,7 +218,7 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
  * pixels and crossings that have light, and a second loop lights only these. With diffuse light on the sky every pixel
  * has light, and the search would only cost time. */
 #ifdef KD_MARCH
-/* not for the march, whose error is measured on a lattice of pixels (src/render/frame/march_error.c) */
+/* not used for the march, whose error is measured on a lattice of pixels (src/render/frame/march_error.c) */
 const bool COLUMNS = false, SAMPLES = CRITICAL == 0;
 #else
 const bool SAMPLES = false;
@@ -282,13 +282,13 @@ void light_rows(uint x, uint y, uint end)
             vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
             store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
         }
-        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of the ray of row y + k */
+        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of row y + k's ray */
         lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
     } while (lit != 0u);
 }
 
-/* Place of a ray of a pixel in the camera. listed: index of the pixel in the list. map_of: index of the ray in the lens
- * map. */
+/* place_of: place in the camera of a pixel's ray. map_of: index of that ray in the lens map. listed: index of the pixel
+ * in the list. */
 uvec2 place_of(uvec2 pixel, uint ray)
 {
     return CRITICAL > 0 ? kd_critical_place(pixel, ray) : pixel * SIDE + uvec2(ray % SIDE, ray / SIDE);

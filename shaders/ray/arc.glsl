@@ -11,8 +11,8 @@
  *   v(+-z) = v + (g (F P/2 + c g) +- v' g'/2) / (P^2 + v'^2 D g^2/4),
  *   F = v'' = v (A + 3K v - 2D v^2),  s = v (K - D v)/2,  P = 1 - g s,  c = v'^2 (K/4 - D v/2).
  *
- * g has a pole where z is the time from v = 0 to v = K/D, which is inside the horizon. No stretch outside the horizon
- * lasts that long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the
+ * g has a pole where z is the time from v = 0 to v = K/D, a place inside the horizon. No stretch outside the horizon
+ * lasts so long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the
  * same time before and after each crossing. The pair comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up
  * to z sqrt|A| = pi/2. For larger z it comes from the duplication formula from z to 2z.
  *
@@ -104,7 +104,7 @@ kd_arc kd_arc_twice(kd_lattice l, kd_arc p)
     return o;
 }
 
-/* A point of the path: v and v', and the values that Biermann's formula needs. */
+/* A point of the path (a centre): v and v' there, and the numbers for Biermann's formula. */
 struct kd_centre {
     float v, dv;
     float f, s, c, d; /* F/2, s, c and v'^2 D/4 */

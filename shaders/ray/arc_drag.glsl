@@ -41,8 +41,8 @@ kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, floa
     return o;
 }
 
-/* The integrand without the factor a. For a ray that falls in it is the integrand of ingoing coordinates, without -E.
- * Both forms are always computed, because a driver may run both branches of an if. */
+/* The integrand without the factor a. For a ray that falls in, it is the integrand in ingoing coordinates without its
+ * term -E. Both forms are always computed, because a driver may run both branches of an if. */
 float kd_drag_at(kd_drag_terms t, float v)
 {
     float w = v * t.unit, w2 = w * w, d = kd_delta(w, t.root), kw = t.k * w2;
@@ -63,7 +63,7 @@ float kd_drag_between(kd_drag_terms t, kd_centre from, kd_centre to, kd_nodes n,
     return t.a * z * t.unit * (t.falls ? sum - t.e : sum);
 }
 
-/* The term of the azimuth that ingoing coordinates leave out, at w; 0 for a ray that does not fall. */
+/* The term of the azimuth at w that ingoing coordinates leave out; 0 for a ray that does not fall. */
 float kd_drag_fallen(kd_drag_terms t, float w) { return t.falls ? t.a * kd_fall(w, t.root) : 0.0; }
 
 #endif

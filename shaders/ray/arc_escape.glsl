@@ -5,8 +5,8 @@
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* g for the time from this point to w = 0, by Biermann's formula with v = 0 at the other end. If the ray moves inwards
- * at this point, the result is a large value. */
+/* g for the time from a point to w = 0, by Biermann's formula with v = 0 at the other end. The result is large if the
+ * ray moves inwards at the point. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
 /* The time that belongs to a value of g, to second order in g. */
@@ -79,8 +79,8 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
 
 /* Direction of a ray that escapes soon after its start, with psi counted from the start. The function takes four steps
  * of the vector equation of escape.glsl. The error of a step of a quarter radian is below the rounding of a float. The
- * function is also used for rays with an impact parameter below a that never meet the plane: they escape soon if they
- * start outside the photon orbits. */
+ * function is also used for rays with an impact parameter below a that never meet the plane: such rays escape soon if
+ * they start outside the photon orbits. */
 kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

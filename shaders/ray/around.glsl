@@ -4,7 +4,7 @@
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 
-/* Columns and rows of the whole picture, counted in rays if `side` is 1, in pixels if `side` is SIDE. */
+/* Numbers of columns and rows of the whole picture: of rays if `side` is 1, of pixels if `side` is SIDE. */
 ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
 
 /* Moves a place outside the picture, by up to a whole picture, into it. If the number of columns is odd, the result is

@@ -6,7 +6,7 @@
 
 #include "shared/math.glsl"
 
-const bool FINITE = SIGHT != KD_SIGHT_PLANE; /* true: the observer is at a finite radius */
+const bool FINITE = SIGHT != KD_SIGHT_PLANE; /* true if the observer is at a finite radius */
 
 #define F(name) float name;
 #define U(name) uint name;
@@ -18,8 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* kd_camera_read copies the blocks into `cam` and `slice`. It must be called before the first branch, because lavapipe
- * reads a block again for each lane and each use after a branch. */
+/* kd_camera_read copies the blocks into `cam` and `slice`. It must be called before the first branch, because after a
+ * branch lavapipe reads a block again for each lane and each use. */
 kd_slice slice;
 void kd_camera_read()
 {

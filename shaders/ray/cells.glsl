@@ -20,7 +20,7 @@ struct kd_sampling { KD_SAMPLE_FIELDS_(F, U) };
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_sampling push_; };
 layout(set = 0, binding = KD_SAMPLE_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
-kd_sampling push; /* `push` and the next variable are set before the first branch, as in ray/camera.glsl */
+kd_sampling push; /* `push` and the next variable: set before the first branch, as in ray/camera.glsl */
 kd_camera_block cam;
 
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
@@ -40,7 +40,7 @@ uint index_of_node(uvec2 corner, uint side, uint i, uint j)
     return index_of((corner + uvec2(i, j) * (side / 4u)) / 2u);
 }
 
-/* The ray of the picture at a place that counts from the first block's first ray. */
+/* The picture's ray at a place that is counted from the first block's first ray. */
 ivec2 place_of(uvec2 at) { return ivec2(at) + ivec2(int(push.origin_x), int(push.origin_y)); }
 
 uint blocks() { return push.blocks_x * push.blocks_y; }
@@ -56,7 +56,7 @@ uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | c
 uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }
 uint kd_unit_level(uint unit) { return (unit >> 29) + 1u; }
 
-/* Values that ray/node.glsl stores after the planes. state_of: the state of a node. curve_of: a value that vanishes
+/* Values that ray/node.glsl stores after the planes. state_of: state of a node. curve_of: value at a node that vanishes
  * where the fate of rays changes. */
 float state_of(uint node) { return NODE_AT(kd_planes_of_all() * push.room + node); }
 float curve_of(uint node) { return NODE_AT((kd_planes_of_all() + 1u) * push.room + node); }

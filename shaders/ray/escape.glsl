@@ -82,8 +82,8 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
                 kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* w' of an outgoing ray, from the first integral. Inside the horizon w' may be large. If it were integrated, its
- * rounding error there would still be present outside the horizon. */
+/* w' of an outgoing ray, from the first integral. Inside the horizon w' may be large. An integrated w' would carry its
+ * rounding error from there to the outside. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_radial_potential(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
@@ -96,7 +96,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
      * 1/sqrt(6K w), for a ray deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
-    /* The loop covers twelve half periods. Rays that still circle after these are within 1e-13 of the critical curve.
+    /* The loop covers twelve half periods. Rays that circle longer are within 1e-13 of the critical curve.
      */
     for (uint i = 0; i < 12 * STEPS; i++) {
         if (INGOING)
@@ -121,7 +121,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
             o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
-            /* the step ends near w = 0, not exactly there, so the ingoing azimuth still differs from that at
+            /* the step ends near w = 0, not exactly at w = 0, so the ingoing azimuth still differs from its value at
              * infinity */
             if (INGOING)
                 o.phi -= kd_drag_fall(q.y.w, cam.spin, cam.root);

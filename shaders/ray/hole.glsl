@@ -6,7 +6,7 @@
 
 #include "shared/math.glsl"
 
-/* The numbers of the hole on which the equations of light depend, from a block that has them. */
+/* The numbers of the hole on which the equations of light depend, taken from a block that has them. */
 struct kd_hole_numbers { float spin, charge2; };
 #define KD_HOLE_OF(block) kd_hole_numbers(block.spin, block.charge2)
 
@@ -40,7 +40,7 @@ float kd_drag_of(kd_hole_numbers hole, float momentum, float energy)
     return hole.spin * momentum + hole.charge2 * energy;
 }
 
-/* Integral from 0 to w of dw/D. It is 1/(2 root) log(1 + x) with x = 2 root w / (1 - r+ w). A series replaces the
+/* Integral from 0 to w of dw/D. It is log(1 + x)/(2 root) with x = 2 root w / (1 - r+ w). A series replaces the
  * logarithm where x is small, as for a nearly extremal hole. */
 float kd_fall(float w, float root)
 {

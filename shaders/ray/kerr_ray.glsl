@@ -25,7 +25,7 @@ struct kd_ray {
  * and `least` is of second order (kd_camera_exact of src/render/view/camera.c). */
 struct kd_rounding {
     float size_e, w, wl, p, l, k, least;
-    float unit; /* unit of the bounds below: several roundoffs */
+    float unit; /* unit of these bounds, which is several roundoffs */
 };
 
 /* The bounds for a single ray that is given by its exact labels (alpha, beta and the direction). */

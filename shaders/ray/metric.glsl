@@ -18,7 +18,7 @@ kd_place kd_place_at(float w, float u, float s2)
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
 
-/* The mass term of the metric: kd_mass is 2r - q^2, the next function this term divided by r^2. */
+/* kd_mass: the mass term of the metric, 2r - q^2. The next function: this term divided by r^2. */
 float kd_mass(float r)
 {
     float mass = 2.0 * r;
@@ -44,8 +44,8 @@ float kd_late(float w)
     return part * kd_fall(w, cam.root);
 }
 
-/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass. moving: the same coefficient in the Kerr metric, a^2 (E^2
- * - 1) - L^2 - Q. A charge q of the hole subtracts q^2 from it. */
+/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass. moving: this coefficient in the Kerr metric, a^2 (E^2 -
+ * 1) - L^2 - Q. A charge q of the hole subtracts q^2 from it. */
 float kd_body_quadratic(float moving)
 {
     float c2 = moving;

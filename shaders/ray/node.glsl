@@ -5,9 +5,9 @@
 
 #include "ray/hole.glsl"
 
-/* A node holds quantities that are smooth from ray to ray. Converts a ray to a node, which holds only quantities that
- * are smooth from ray to ray. The azimuths of a captured ray lose the logarithm that diverges at the horizon. A unit
- * vector replaces the angles in the sky and the fate: x, y and z in the planes of SKY_PHI, FATE and SKY_U. */
+/* Converts a ray to a node, which holds only quantities that are smooth from ray to ray. The azimuths of a captured ray
+ * lose the logarithm that diverges at the horizon. A unit vector replaces the angles in the sky and the fate: x, y and
+ * z in the planes of SKY_PHI, FATE and SKY_U. */
 void kd_finish_node(uint at, uint crossings, bool captured, float curve)
 {
     lens[slice.list + at] = float(crossings) + (captured ? KD_NODE_CAPTURED : 0.0);

@@ -4,9 +4,9 @@
  *   6: J. Albrecht's method in five stages (1955, ZAMM 35, 100);
  *   4: E. J. Nystroem's method in three, the fewest possible (1925, Acta Soc. Sci. Fenn. 50, 13; Hairer, Norsett &
  *     Wanner 1993, II.14).
- * The sums are precise. Otherwise a driver may add a step's small terms to y one by one (Vulkan allows reassociation),
- * each with a rounding error of y. tests/gpu/test_rays.c verifies the orders: with twice as many steps the error falls
- * to a sixty-fourth (order 6) or a sixteenth (order 4). */
+ * The sums are `precise`. Without this qualifier a driver may add a step's small terms to y one by one (Vulkan allows
+ * reassociation), each with a rounding error of y. tests/gpu/test_rays.c verifies the orders: with twice as many steps
+ * the error falls to a sixty-fourth (order 6) or a sixteenth (order 4). */
 #ifndef KD_NYSTROEM_GLSL
 #define KD_NYSTROEM_GLSL
 

@@ -50,7 +50,7 @@ bool kd_this_ray(out uvec2 ray, out uint at)
         uint number = x + (alone ? 0u : kd_stage_first(slice.stage)), word = slice.places + number;
         if (x >= kd_stage_count(slice.stage))
             return false;
-        /* the sum may wrap round to a negative place */
+        /* the sum may wrap round, because the place may be negative */
         ray = kd_place_at(words[word]) + uvec2(slice.origin_x, slice.origin_y);
         at = alone ? (ray.y - slice.band0) * cam.width + ray.x : number;
         return true;

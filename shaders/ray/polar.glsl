@@ -39,7 +39,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float b = m.a2 < 0.0 ? 0.5 * (root - m.a2) : 2.0 * m.energy2 * (m.q / (root + m.a2));
     o.b = max(b, 1e-30);
 
-    /* By symmetry the observer may be taken above the plane; if it is in the plane, the ray starts upwards. */
+    /* By symmetry the observer is taken to be above the plane. If it is in the plane, the ray is taken to start
+     * upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) at the observer */
     /* scaled, because only the direction of (cx, sx) counts and its squares must not underflow */

@@ -19,8 +19,8 @@ struct kd_azimuth {
     float first;              /* psi from the observer to the first crossing */
     float half_;              /* psi from each crossing to the next */
     float f0, f1, f2, f3, f4; /* coefficients of the cosine series */
-    float b, root_c, side;    /* b; sqrt(c); sign of L */
-    bool uneven;              /* true if the series is not accurate enough */
+    float b, root_c, side;    /* b: b above. root_c: sqrt(c). side: sign of L */
+    bool uneven;              /* true if the cosine series is not accurate enough */
 };
 
 /* 1 / (sqrt(y) (sqrt(y) + sqrt(c))). */

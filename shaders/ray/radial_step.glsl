@@ -48,8 +48,8 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
 }
 
 /* kd_drag for a ray that may come from inside the horizon or return to it. The function uses ingoing coordinates (way =
- * -1) while the ray goes outwards, and outgoing ones (way = 1) while the ray returns. In this choice neither divides by
- * D. Both azimuths are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
+ * -1) while the ray goes outwards, and outgoing ones (way = 1) while the ray returns. With this choice neither rate
+ * divides by D. Both azimuths are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -58,8 +58,8 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
 }
 
 /* True if the light that an observer at w receives comes from outside. Only an observer on or inside the horizon
- * receives other light. Such light crosses the horizon with W < 0, comes from the other side of the hole's past, and is
- * taken as dark. W has no meaning at a horizon that a ray does not cross. */
+ * receives other light. Such light crosses the horizon with W < 0. It comes from the other side of the hole's past, and
+ * is taken as dark. W has no meaning at a horizon that a ray does not cross. */
 bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
 {
     return w < horizon || e + a * (a * e - m.momentum) * horizon * horizon > 0.0;
@@ -103,7 +103,8 @@ float kd_speed_noise(kd_geodesic m, kd_state y, kd_rounding off)
 
 /* Computes the turning point for an observer next to the photon orbits. It starts from the observer's place, where R =
  * w'^2. R' vanishes at the turning point, so between the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) -
- * x^2 D), where x is their distance. This form is used because w'^2 is more precise than R where w' is close to 0. */
+ * x^2 D), where x is their distance. The function uses this form, because w'^2 is more precise than R where w' is close
+ * to 0. */
 kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
@@ -126,7 +127,7 @@ float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 /* True if a ray in this state falls into the horizon without turning. */
 bool kd_falls_in(kd_turning_point b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
-/* The value of `way` that kd_drag needs from this state on. */
+/* The value of `way` for kd_drag from this state on. */
 float kd_direction_of_motion(kd_turning_point b, kd_state y)
 {
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;

@@ -8,7 +8,7 @@
 layout(set = 0, binding = 7) readonly buffer Rim
 {
     float rim[];
-    /* first the distance of the curve from the middle, by angle; from index push.rim on, the table of the current grid
+    /* distance of the curve from the middle for each angle; from index push.rim on, the table of the current grid
      */
 };
 

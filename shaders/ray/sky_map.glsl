@@ -29,8 +29,8 @@ float map_at(uint at) { return lens[at]; }
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
 #include "light/tables.glsl"
 
-/* The push constants and numbers are copied before the first branch, because lavapipe reads them again for each lane
- * and each use after a branch. */
+/* The push constants and numbers are copied before the first branch, because after a branch lavapipe reads them again
+ * for each lane and each use. */
 kd_star_push push;
 struct kd_sky_emission {
     kd_frame_block frame;
@@ -48,8 +48,8 @@ void kd_sky_map_read()
 #include "emit/sky.glsl"
 
 float kd_sky_number(uint quantity, uint at) { return map_at(at + kd_plane(quantity) * push.stride); }
-/* Size on the sky, in radians, of the area that a ray stands for. If the map stores no such size, it comes from aa, bb
- * and ab, the products of the map's derivatives along the picture's axes. */
+/* Size on the sky, in radians, of the area that a ray stands for. If the map does not store it, it is computed from aa,
+ * bb and ab, the products of the map's derivatives along the picture's axes. */
 float kd_sky_size(uint at, float aa, float bb, float ab)
 {
     float half_ = 0.5 * (aa - bb);

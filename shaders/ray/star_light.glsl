@@ -25,8 +25,8 @@ float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) 
 
 /* Spreads the light of an image. place: in pixels of the picture. light: the mean radiance of a pixel centred there.
  * Near the poles of a picture of all directions adjacent rows have different solid angles. The weights are corrected
- * for this: the sum of light times solid angle over all pixels is the same as if a pixel centred at the place had all
- * the light. */
+ * for this difference: the sum of light times solid angle over all pixels is the same as if one pixel, centred at the
+ * place, had all the light. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);
@@ -41,7 +41,7 @@ void kd_star_spread(vec2 place, vec3 light)
         light *= kd_star_level(place.y, rows) / dot(wy, levels);
     }
     int k = 0;
-    [[dont_unroll]] do { /* the condition is at the loop's end for the reason given in lens_closed.comp */
+    [[dont_unroll]] do { /* this loop tests at its end, for the reason given in lens_closed.comp */
         int r = k / 3, c = k - 3 * r;
         ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
         if (SIGHT == KD_SIGHT_SPHERE)

@@ -9,7 +9,7 @@ layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; };
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
 vec4 star_row(uint k) { return texelFetch(stars, int(k)); }
-/* first stars of the fine cells, then of the coarse cells */
+/* index of each fine cell's first star, then of each coarse cell's */
 layout(set = 0, binding = 5) uniform utextureBuffer cells;
 uint cell_at(uint of) { return texelFetch(cells, int(of)).r; }
 #else
@@ -21,7 +21,7 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* number of tiles; number of rays; then the list of tiles, with room for push.tiles; then the list of rays */
+}; /* number of tiles, number of rays, list of up to push.tiles tiles, list of rays */
 
 /* The cells of a face of the cube that lie in a rectangle. */
 struct kd_cells {

@@ -1,7 +1,7 @@
 /* Records the steps of a kernel for `kerrd rays --trace`. If the kernel is compiled with KD_TRACE, it follows a single
  * ray and writes a record of each step to binding 2; otherwise this file compiles to nothing. The output is the number
- * of records, then the constants of motion, then the records. A record holds the stage, the step, four numbers, the
- * derivatives of these numbers, and chi. Records that do not fit are only counted. */
+ * of records, then the constants of motion, then the records. A record holds the stage, the step, four numbers, their
+ * derivatives, and chi. Records that do not fit are only counted. */
 #ifndef KD_TRACE_GLSL
 #define KD_TRACE_GLSL
 

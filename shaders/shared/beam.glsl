@@ -2,8 +2,8 @@
 #ifndef KD_BEAM_GLSL
 #define KD_BEAM_GLSL
 
-/* A quadratic B-spline with nodes at unit distance. Of three neighbouring cells, the weights have the sum 1, the mean t
- * and the variance 1/4 for any place t. The spline therefore shifts nothing, and widens everything equally. */
+/* A quadratic B-spline with nodes at unit distance. For any place t, its weights for three neighbouring cells have the
+ * sum 1, the mean t and the variance 1/4. The spline therefore shifts nothing, and widens everything equally. */
 float beam_spline(float t)
 {
     float far = max(1.5 - abs(t), 0.0), near = max(0.5 - abs(t), 0.0);

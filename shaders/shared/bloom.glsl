@@ -6,9 +6,9 @@
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
-/* Limits of spreading, in units of white, which is the light that the exposure maps to 1. FROM: light above this may be
- * spread. KNEE: half the width of the transition. MOST: the most light that is spread from one place. Light near white
- * is included, because the film-like curve shows the brightest parts of many pictures there. */
+/* Limits of spreading, in units of white, which is the light that the exposure maps to 1. FROM: light above this value
+ * may be spread. KNEE: half the width of the transition about FROM. MOST: the most light that is spread from one place.
+ * Light near white is included, because the film-like curve shows the brightest parts of many pictures there. */
 #define KD_BLOOM_FROM 0.6
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0

@@ -77,7 +77,8 @@
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
 
 /* Bits that every emitter's word has. PRESENT: the scene has the emitter. SEPARATE_PHOTOMETRY: the emitter's luminance
- * is also stored separately, so that its flux and centroid can be measured. Only one emitter can have this bit. */
+ * is also stored separately, so that its flux and centroid can be measured. Only one emitter can have the latter bit.
+ * */
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \

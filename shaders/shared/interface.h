@@ -3,7 +3,8 @@
 #ifndef KD_INTERFACE_H
 #define KD_INTERFACE_H
 
-/* Number of invocations of a workgroup in every kernel: eight lavapipe vectors, two NVIDIA warps, or one AMD wave. */
+/* Number of invocations in a workgroup of every kernel. It is eight lavapipe vectors, two NVIDIA warps, or one AMD
+ * wave. */
 #define KD_GROUP_SIZE 64
 
 /* Projections of a camera. PLANE: rays from infinity, on a plane. PINHOLE: perspective, at a finite radius. SPHERE: all
@@ -17,8 +18,7 @@
 /* Unit roundoff of the kernels' floats. */
 #define KD_ROUNDOFF 6e-8
 
-/* Parameters of the hole that a hole of the Kerr metric does not have. The function kd_hole_NAME of hole.h computes
- * NAME. */
+/* Parameters of the hole besides those of the Kerr metric. The function kd_hole_NAME of hole.h computes NAME. */
 #define KD_HOLE_MORE_FIELDS_(F) F(charge2) /* q^2 */
 
 /* Parameters of the hole. Each uniform block whose kernel needs the hole contains them. */
@@ -26,7 +26,7 @@
 #define KD_HOLE_FIELDS_(F) \
     F(spin)                 /* a */ \
     F(horizon)              /* 1/r+ */ \
-    F(root)                 /* sqrt(1 - a^2 - q^2), inexact if made of floats; the horizons are at r = 1 +- root */ \
+    F(root)                 /* sqrt(1 - a^2 - q^2), inexact if computed from floats; horizons: r = 1 +- root */ \
     KD_HOLE_MORE_FIELDS_(F)
 /* clang-format on */
 
@@ -37,20 +37,20 @@
  * steps are angles, and c0, cx and cy point ahead, to the right and up. The direction is then cos(y) (cos(x) c0 +
  * sin(x) cx) + sin(y) cy on a sphere, and cos(d) c0 + sin(d) (x cx + y cy) / d with d^2 = x^2 + y^2 on a dome. A photon
  * that arrives from the direction k moves along m = -k, and has E = e_t + m_r e_r + m_theta e_theta + m_phi e_phi.
- * L/sin(theta) follows likewise from l_, p_theta from p_, and dw/dtau of the traced ray from dw_. The numbers named
- * with _t, _r, _theta and _phi are components of the observer's tetrad (src/physics/spacetime/tetrad.h). */
+ * L/sin(theta) is the same sum with l_ in place of e_, p_theta with p_, and dw/dtau of the traced ray with dw_. The
+ * numbers named _t, _r, _theta and _phi are components of the observer's tetrad (src/physics/spacetime/tetrad.h). */
 /* clang-format off */
 #define KD_CAMERA_FIELDS_(F, U) \
     F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz) \
-    F(middle_x) F(middle_y) /* ray coordinates of the picture's middle: column and row */ \
+    F(middle_x) F(middle_y) /* column and row, in rays, of the picture's middle */ \
     KD_HOLE_FIELDS_(F) \
     F(u) F(s)               /* cosine and sine of the observer's polar angle */ \
-    F(w0)                   /* 1/r of the observer, 0 at infinity */ \
-    /* only if the observer falls outside the horizon: Boyer-Lindquist azimuth minus ingoing azimuth; otherwise 0 */ \
+    F(w0)                   /* 1/r of the observer; 0 at infinity */ \
+    /* Boyer-Lindquist azimuth minus ingoing azimuth, for an observer that falls outside the horizon; otherwise 0 */ \
     F(twist) \
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi) \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi) \
-    F(turn_x) F(turn_y)     /* for a sphere and a dome: angle of a step, in quarter turns */ \
+    F(turn_x) F(turn_y)     /* angle of a step on a sphere or a dome, in quarter turns */ \
     F(size_e)               /* upper bound of |E| over all rays of the camera */ \
     /* bounds of the rounding error of R (kd_rounding of shaders/ray/kerr_ray.glsl) */ \
     F(noise_w) F(noise_wl) F(noise_p) F(noise_l) F(noise_k) F(noise_0) \
@@ -63,26 +63,26 @@
  * band to which the light of these pixels is written. */
 /* clang-format off */
 #define KD_SLICE_FIELDS_(F, U) \
-    U(row0) U(rows)         /* first row of this slice in the picture; number of rows of the slice */ \
+    U(row0) U(rows)         /* row0: first row of the slice in the picture. rows: its number of rows */ \
     U(band0)                /* first row of the band that the buffers hold */ \
     U(stride)               /* number of rays of the band, which is the distance between planes of the lens map */ \
-    U(list)                 /* offset in the lens map: of the list of pixels, or of the states of nodes */ \
+    U(list)                 /* offset of the list of pixels, or of the states of nodes, in the lens map */ \
     /* for rays by place: number of the stage, offset of its list of places, and the ray at the origin of these \
      * places */ \
     U(stage) U(places) U(origin_x) U(origin_y) \
-    U(steps) U(fine) /* march (light/march.glsl): steps in a half period; 4/fine is the longest stretch in grains */ \
+    U(steps) U(fine)        /* march (light/march.glsl): steps in a half period; 4/fine: longest stretch, in grains */ \
     F(opaque)               /* a ray ends where less than this fraction of the light behind is transmitted */ \
     F(unseen)               /* octaves of noise fainter than this fraction of the first octave are left out */ \
-    /* sample: pixels in a row (0: no sample, all pixels are lit), and the first column. The first row is row0 */ \
+    /* sample: number of pixels in a row, 0 if all pixels are lit; and its first column. Its first row is row0 */ \
     U(columns) U(first) \
     U(every_x) U(every_y)   /* sample: distance between columns, and between rows, in pixels */ \
-    /* sample: index at which its stored light begins; the pixels follow row by row */ \
+    /* sample: index of its first pixel in the buffer of light; its pixels follow row by row */ \
     U(to) \
     /* number of the ray in its pixel; the light of rays after the first is added to that of earlier ones */ \
     U(ray) \
-    U(lost_most)            /* capacity of the list of stopped rays */ \
-    U(lost_first) U(lost_n) /* listed rays that this dispatch continues: index of the first one, and their number */ \
-    U(lost_goes)            /* 0: this is the rays' first piece; 1: the state of each ray is read */
+    U(lost_most)            /* capacity of the list of rays that were stopped early */ \
+    U(lost_first) U(lost_n) /* listed rays that this dispatch continues: index of the first, and number */ \
+    U(lost_goes)            /* 0 for the rays' first piece; 1 for later ones, which read the state of each ray */
 /* clang-format on */
 
 /* Rays through volumes that were stopped early are stored after a band's light (frame/pieces.c). Offsets count
@@ -90,8 +90,8 @@
  * rays that wait for their next piece. Then come the states, KD_LOST_STATE words for each ray that a dispatch
  * continues. The list follows. An entry of the list is (number of the pixel) * (rays of a pixel) + (number of the ray).
  * The pixel is numbered in the band, in the list of pixels or in the sample. A piece takes up to KD_PIECE_PASSES passes
- * of loops. The reason is that lavapipe (Mesa 22.3) ends the loops of eight invocations after 65 535 passes in total.
- * Work that is repeated for each piece takes some thousand of these passes. */
+ * of loops, because lavapipe (Mesa 22.3) ends the loops of eight invocations after 65 535 passes in total. Work that is
+ * repeated for each piece takes some thousand of these passes. */
 #define KD_LOST_GIVEN_UP 1
 #define KD_LOST_LISTED 2
 #define KD_LOST_WAITING 3
@@ -107,8 +107,8 @@
 /* clang-format off */
 #define KD_FOOTPRINT_FIELDS_(F, U) \
     U(width)                /* number of rays in a row */ \
-    U(rows)                 /* number of all rows; if pixels are listed, number of listed pixels */ \
-    U(first) U(end)         /* requested range: of rows, or of rays on listed pixels */ \
+    U(rows)                 /* number of all rows or, if pixels are listed, of listed pixels */ \
+    U(first) U(end)         /* requested range of rows, or of rays on listed pixels */ \
     U(stride)               /* number of rays in a plane */ \
     U(list)                 /* offset of the list of pixels, or of the places of rays that are traced singly */ \
     U(alone)                /* 1: only single rays; footprints from row `end` on are only marked as missing, */ \
@@ -120,13 +120,13 @@
  * picture. */
 /* clang-format off */
 #define KD_SAMPLE_FIELDS_(F, U) \
-    U(origin_x) U(origin_y) /* place of the first block's first ray, as signed integers */ \
+    U(origin_x) U(origin_y) /* column and row of the first block's first ray, as signed integers */ \
     U(blocks_x) U(blocks_y) \
-    U(width) U(rows)        /* number of rays in a row of the map; number of requested rows */ \
-    U(row0) U(band0)        /* first requested row; first row in the map's buffer */ \
+    U(width) U(rows)        /* width: number of rays in a row of the map. rows: number of requested rows */ \
+    U(row0) U(band0)        /* row0: first requested row. band0: first row in the map's buffer */ \
     U(stride)               /* number of rays in a plane of the map */ \
     U(room)                 /* number of rays in a plane of the nodes' map */ \
-    U(level)                /* lens_cells.comp: 0: makes the first nodes; 1 to KD_CELL_LEVELS: tests cells */ \
+    U(level)                /* lens_cells.comp: 0: makes the first nodes; 1 to KD_CELL_LEVELS: tests this level */ \
     F(tolerance)
 /* clang-format on */
 #define KD_CELL_BLOCK 64 /* number of rays along the side of a cell of level 1; each further level halves the side */
@@ -147,13 +147,12 @@
 #define KD_PLACE_BITS 17
 #define KD_FOOTPRINT_PLACES 1
 #define KD_PLACES_BINDING 3          /* binding of the lists of places in the tracing kernels */
-#define KD_RAYS_BY_PLACE 0xffffffffu /* value of the constant CRITICAL in kernels that process stages */
+#define KD_RAYS_BY_PLACE 0xffffffffu /* value of the constant CRITICAL in kernels that process a stage of rays */
 /* State of a node: the number of crossings of its ray, plus KD_NODE_CAPTURED if the ray is captured. A negative state
  * means that the ray is undecided. */
 #define KD_NODE_CAPTURED 16.0
 #define KD_NODE_OPEN -1.0
-/* number of planes that follow the usual planes in the nodes' map: one of states, one of a value that vanishes where
- * fates change */
+/* number of additional planes in the nodes' map: one of states, one of a value that vanishes where fates change */
 #define KD_NODE_OWN 2
 
 #define KD_FOOTPRINT_WANTED -1.0
@@ -165,12 +164,12 @@
     U(width)                /* number of rays in a row */ \
     U(rows)                 /* number of all rows */ \
     U(first) U(end)         /* range of requested rows */ \
-    U(left) U(right)        /* range of requested columns: the first, and the one after the last */ \
+    U(left) U(right)        /* range of requested columns: first column, and column after the last */ \
     U(stride)               /* number of rays in a plane */ \
     U(row0) U(column0)      /* row and column of the buffer's first ray in the picture's grid */ \
     U(room)                 /* capacity of the list of pairs */ \
     U(tiles)                /* capacity of the list of small tiles */ \
-    U(stars)                /* number of stars; the stars' temperatures follow all directions and fluxes */ \
+    U(stars)                /* number of stars; the list has all directions and fluxes, then all temperatures */ \
     U(pixels_y)             /* number of rows of pixels that the buffer of light holds */ \
     /* signed numbers that convert a row and a column of the picture's pixels to those in the buffer of light, by \
      * addition */ \
@@ -186,40 +185,41 @@
 #define KD_RIM_EDGES 512
 /* number of rays along a side of a large tile of star_tiles.comp; must be odd and a multiple of 3 */
 #define KD_STAR_TILE 9
-/* as a fraction of sky.brightness; images that add less light to a pixel are left out */
+/* images of stars that add less light to a pixel are left out; in units of sky.brightness */
 #define KD_STAR_LEAST 0.03
-#define KD_STAR_LEAST_BRIGHT 1.0 /* the same limit if only bright images are made */
+#define KD_STAR_LEAST_BRIGHT 1.0 /* limit in place of KD_STAR_LEAST if only bright images are made */
 #define KD_STAR_PATCH 0.15       /* largest patch of a ray in which images of stars are searched, radians */
-#define KD_STAR_PATCH_RIM 0.8    /* the same limit if a rim makes the images next to the critical curve */
+/* limit in place of KD_STAR_PATCH if a rim makes the images next to the critical curve */
+#define KD_STAR_PATCH_RIM 0.8
 
 /* Push constants of between.comp, for the pixels of a list that are in one band. */
 /* clang-format off */
 #define KD_BETWEEN_FIELDS_(F, U) \
-    U(first) U(count)       /* entries of the list whose pixels are in the band: index of the first, and number */ \
-    U(stride) U(list)       /* rays a plane and offset of the list, as in KD_SLICE_FIELDS_ */ \
-    U(marks)                /* number of pixels in the whole list; after the list comes one result word for each */ \
-    U(width) U(row0)        /* number of pixels in a row; first row of the band */ \
+    U(first) U(count)       /* entries of the list with pixels of the band: index of the first, and number */ \
+    U(stride) U(list)       /* number of rays in a plane; offset of the list, as in KD_SLICE_FIELDS_ */ \
+    U(marks)                /* number of pixels in the whole list; a result word for each follows the list */ \
+    U(width) U(row0)        /* width: number of pixels in a row. row0: first row of the band */ \
     U(map_rows) U(map_stride) /* number of rows of the band; number of rays in a plane of its lens map */
 /* clang-format on */
 
 /* A guiding orbit of particles. Phases are those at the time of the picture, in units of 2^-32 turn. Amplitudes are the
- * largest ones of the epicycles. */
+ * largest amplitudes of the epicycles. */
 /* clang-format off */
 #define KD_GUIDE_FIELDS_(F, U) \
     U(phi) U(radial) U(vertical) \
-    F(row)                   /* row of the grid at the orbit's radius */ \
-    F(swing_row) F(swing_phi) /* largest amplitudes of the epicycle: in rows, and in azimuth (turns) */
+    F(row)                   /* row of the grid at the guiding orbit's radius */ \
+    F(swing_row) F(swing_phi) /* largest amplitude of the epicycle in rows; in azimuth, turns */
 /* clang-format on */
 /* clang-format off */
 #define KD_PARTICLES_FIELDS_(F, U) \
     U(key)                   /* hash of the seed of random numbers */ \
     U(first) U(stride) U(count) \
-    U(per_particle)          /* 2^31 times the number of radii over the number of particles */ \
+    U(per_particle)          /* 2^31 times the number of radii, divided by the number of particles */ \
     U(rows) U(columns_log2) \
     U(unit)                  /* weight of one particle */ \
     F(tilt)                  /* largest latitude of an orbit, radians */ \
     U(plunging)              /* number of falling particles, which have the lowest numbers */ \
-    U(lap) U(phase)          /* time since time 0 in plunges: whole plunges; remainder in 2^-32 */ \
+    U(lap) U(phase)          /* time since time 0 in plunges: the whole plunges, and the rest in units of 2^-32 */ \
     U(turn)                  /* azimuth that the orbit at the ISCO has covered since time 0, in units of 2^-32 turn */ \
     U(plunge_at)             /* offset of the falling particles' grid in the common buffer */ \
     U(plunge_rows) U(plunge_columns_log2) \
@@ -239,9 +239,9 @@
     U(pixels)                /* number of pixels of the band */ \
     U(first)                 /* index of the band's first pixel in the picture */ \
     U(pixels_x) \
-    F(left) F(top)           /* for a tile: column and row of its first pixel in the picture */ \
-    U(counter)               /* index of the word that counts pixels whose light is not finite; 0: no count */ \
-    F(bloom) /* fraction of the light above white that is spread; all members from here on are used only with bloom */ \
+    F(left) F(top)           /* column and row in the picture of a tile's first pixel */ \
+    U(counter)               /* index of the word that counts pixels whose light is not finite; 0 for no count */ \
+    F(bloom) /* spread fraction of the light above white; used, like all members below, only with bloom */ \
     F(scale_x) F(scale_y)    /* number of cells per pixel along each axis */ \
     U(cells_x) U(cells_y)
 /* clang-format on */
@@ -255,9 +255,9 @@
     F(gain)                  /* 2^exposure */ \
     F(strength)              /* fraction of the light above white that is spread */ \
     U(pixels_x) \
-    U(row0) U(rows)          /* first row of the band; number of its rows */ \
+    U(row0) U(rows)          /* row0: first row of the band. rows: number of its rows */ \
     U(blocks_x)              /* number of blocks in a row of the picture */ \
-    U(block_row0) U(block_rows) /* blocks that have pixels of the band: first row, number of rows */ \
+    U(block_row0) U(block_rows) /* rows of blocks with pixels of the band: first row, and number */ \
     U(across)                /* number of invocations for a row of blocks */
 /* clang-format on */
 #define KD_BLOOM_TAPS 16 /* maximum number of blocks, along an axis, that two cells read */
@@ -273,7 +273,7 @@
 /* clang-format off */
 #define KD_BEAM_BAND_FIELDS_(F, U) \
     U(pixels_x) \
-    U(row0) U(rows)          /* first row of the band in the picture; number of its rows */ \
+    U(row0) U(rows)          /* row0: first row of the band in the picture. rows: number of its rows */ \
     U(columns)               /* number of cells in a row */ \
     U(cell)                  /* side of a cell, in pixels */ \
     F(cells)                 /* reciprocal of `cell` */
@@ -283,11 +283,11 @@
 /* clang-format off */
 #define KD_BEAM_SPLINE_FIELDS_(F, U) \
     U(columns) \
-    U(row0) U(rows)          /* result's slice: first row, number of rows */ \
+    U(row0) U(rows)          /* slice of the result: first row, and number of rows */ \
     U(length_)               /* number of rows of the source */ \
     U(first_times) U(first_over) U(before) U(count) \
-    F(from_scale)            /* scale: units of the weights' argument per row of the source */ \
-    F(to_scale) F(shift)     /* the same scale for a row of the result; shift of the result in these units */ \
+    F(from_scale)            /* units of the weights' argument per row of the source */ \
+    F(to_scale) F(shift)     /* the same units per row of the result; shift of the result in these units */ \
     F(weight)                /* factor by which the sum is multiplied */
 /* clang-format on */
 /* Push constants of beam_blur.comp. */
@@ -296,7 +296,7 @@
     U(row0)    /* first row of the slice; a multiple of four */ \
     U(lines)   /* number of lines of the slice: rows or, if the blur is along columns, groups of four rows */ \
     U(length_) /* number of cells along the axis */ \
-    U(reach)   /* number of cells on either side whose weight is not 0 */ \
+    U(reach)   /* number of cells on each side whose weight is not 0 */ \
     F(narrow)  /* 1/(2 sigma^2), with sigma in cells */ \
     F(weight)  /* factor by which the sum is multiplied */
 
@@ -308,11 +308,11 @@
  * or to sixteen sums if Stokes Q, U and V are kept. */
 /* clang-format off */
 #define KD_LIGHT_FIELDS_(F, U) \
-    U(pixels_x) U(pixels)     /* number of pixels in a row; number of pixels in the band */ \
+    U(pixels_x) U(pixels)     /* pixels_x: number of pixels in a row. pixels: number of pixels in the band */ \
     U(row0)                   /* first row of the band in the picture */ \
     U(spots)                  /* offset of the spots' separate luminance */ \
-    U(stokes)                 /* offset of Stokes Q, U and V, followed by the spots' Q and U */ \
-    U(plane)                  /* length of each plane of these numbers, in pixels */ \
+    U(stokes)                 /* offset of the planes of Stokes Q, U and V, then of the spots' Q and U */ \
+    U(plane)                  /* number of pixels in each of these planes */ \
     F(middle_x) F(middle_y)   /* column and row of the middle of the picture, in pixels */ \
     F(step_)                  /* distance between pixels, relative to the distance of the picture */
 /* clang-format on */
@@ -332,18 +332,18 @@
 /* Values of the plane FATE of a lens map. */
 #define KD_FATE_ESCAPED 0.0
 #define KD_FATE_CAPTURED 1.0
-#define KD_FATE_UNDECIDED 2.0 /* the ray has reached the limit of steps before its end was known */
+#define KD_FATE_UNDECIDED 2.0 /* the ray reached the limit of steps before its end was known */
 
-/* Layout of the records of trace.glsl: the count of numbers in the header, the count of numbers in a record, and the
- * stages. Stages 0, 1, ... are the steps towards the crossing of that order, and their records hold w and u. Records of
- * the other stages hold the unit vector n and w. */
+/* Layout of the records of trace.glsl. HEADER: count of numbers in the header. RECORD: count of numbers in a record.
+ * The others are stages. Stages 0, 1, ... are the steps towards the crossing of that order, and their records hold w
+ * and u. Records of the other stages hold the unit vector n and w. */
 #define KD_TRACE_HEADER 8
 #define KD_TRACE_RECORD 11
 #define KD_TRACE_START -1.0
 #define KD_TRACE_CROSSING -2.0
 #define KD_TRACE_END -3.0 /* stage of the steps after the last crossing */
 
-/* Layout of the records of light/probe.glsl: the count of numbers in a record, and the kinds of records. */
+/* Layout of the records of light/probe.glsl. RECORD: count of numbers in a record. The others are kinds of records. */
 #define KD_PROBE_RECORD 11
 #define KD_PROBE_AT 0.0
 #define KD_PROBE_OF_PLACE 1.0
@@ -359,6 +359,6 @@
 #define KD_PROBE_MET_AT 11.0
 #define KD_PROBE_POLARIZED 12.0
 #define KD_PROBE_ALONG_AT 13.0
-#define KD_PROBE_SUMS 2u /* number of records that come before the others: KD_PROBE_FRONT and KD_PROBE_WHOLE */
+#define KD_PROBE_SUMS 2u /* number of records at the start, before all others: KD_PROBE_FRONT and KD_PROBE_WHOLE */
 
 #endif

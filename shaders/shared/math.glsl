@@ -1,5 +1,5 @@
-/* Elementary functions with known errors in both precisions. Vulkan allows 4096 ulp for its atan and 2^-11 for its
- * sine, and has neither in double. With KD_DOUBLE the functions are accurate to 1e-16 instead of 1e-7. */
+/* Elementary functions with known errors in both precisions. Vulkan allows an error of 4096 ulp in atan and of 2^-11 in
+ * the sine, and has neither function in double. With KD_DOUBLE the functions are accurate to 1e-16 instead of 1e-7. */
 #ifndef KD_MATH_GLSL
 #define KD_MATH_GLSL
 

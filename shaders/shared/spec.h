@@ -21,15 +21,15 @@
     U(5, CRITICAL, 0) U(6, GENERATOR, 1) U(7, SHIFT, 0) B(8, INGOING, false)
 /* clang-format on */
 
-/* X1 to Y4: vectors from a ray of the lattice to its neighbours, as signed 32-bit integers. */
+/* X1 to Y4: x and y of the vectors from a ray of the lattice to four neighbours, as signed 32-bit integers. */
 /* clang-format off */
 #define KD_SPEC_FOOTPRINT(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, CRITICAL, 0) U(3, GENERATOR, 1) U(4, SHIFT, 0) \
     U(5, X1, 0) U(6, Y1, 0) U(7, X2, 0) U(8, Y2, 0) U(9, X3, 0) U(10, Y3, 0) U(11, X4, 0) U(12, Y4, 0)
 /* clang-format on */
 
-/* KD_SPEC_SAMPLE is for lens_cells.comp, KD_SPEC_FILL for lens_fill.comp. OF_SKY: true if the kernel fills ends of rays
- * instead of crossings. */
+/* KD_SPEC_SAMPLE is for lens_cells.comp, KD_SPEC_FILL for lens_fill.comp. OF_SKY: true if the kernel fills the ends of
+ * rays in the sky instead of crossings. */
 #define KD_SPEC_SAMPLE(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3)
 #define KD_SPEC_FILL(U, B) U(0, QUANTITIES, 1) U(1, ORDERS, 3) B(2, OF_SKY, false)
 
@@ -78,7 +78,7 @@
  * if the last block is narrower than the others. */
 #define KD_SPEC_BLOOM_BRIGHT(U, B) U(0, BLOCK_X, 2) U(1, BLOCK_Y, 2) B(2, BEGUN, false)
 #define KD_SPEC_BLOOM_GATHER(U, B) U(0, TAPS_X, 7) U(1, TAPS_Y, 7) B(2, RAGGED, false) B(3, AROUND, false)
-/* AROUND: true if the picture shows all directions, so that its right and left edges adjoin. */
+/* AROUND: true if the picture shows all directions. Its right and left edges then adjoin. */
 #define KD_SPEC_BLOOM_GRID(U, B) B(0, AROUND, false)
 
 /* ACES: true for the film-like curve. NEUTRAL: true for the curve that keeps colours. Without either flag, light is

@@ -16,8 +16,7 @@ enum {
     PLAIN = 10,
     COLUMNS = 17,
     SUMMARY = 15
-}; /* numbers of columns: PLAIN for an orbit without an observer, COLUMNS for one with an observer, SUMMARY for a
-      summary */
+}; /* numbers of columns. PLAIN: series without an observer. COLUMNS: series with an observer. SUMMARY: summary */
 
 static const char *const columns[COLUMNS] = { "mino",  "tau_proper", "t",     "r",  "theta",
                                               "phi",   "x",          "y",     "z",  "energy_error",
@@ -55,7 +54,7 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
-    int digits; /* significant digits of numbers; 0 means all digits */
+    int digits; /* number of significant digits; 0 means all digits */
 };
 
 static void put(struct text *t, const char *s)
@@ -143,8 +142,8 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* Advance of the periastron. It is undefined for a circle, which has no periastron: the formula would give the advance
- * of the circle's smallest oscillation, which is infinite at the ISCO. */
+/* Advance of the periastron. It is undefined for a circle, which has no periastron. The formula would give the advance
+ * for infinitesimal oscillations about the circle, which is infinite at the ISCO. */
 static double periastron_advance(const struct kd_orbit_run *run)
 {
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;
@@ -206,7 +205,7 @@ static void head(struct text *t, const struct kd_orbit_run *run)
 
 static void drift(struct text *t, const struct kd_orbit_run *run)
 {
-    open(t, "drift"); /* the drift of E and Q only: L is a parameter of the equations and does not drift */
+    open(t, "drift"); /* drifts of E and Q; L is a parameter of the equations and does not drift */
     member(t, "energy", run->worst.energy);
     member(t, "angular_momentum", 0);
     member(t, "carter", run->worst.carter);
@@ -451,7 +450,7 @@ static void many_json(struct text *t, const struct kd_orbit_run *runs, size_t n,
                                                 runs[i].samples, 0, t->out);
         if (!t->status)
             t->status = kd_orbit_answer_end(&runs[i], KD_ORBIT_JSON, t->out);
-        t->out->size -= !t->status; /* removes the last byte, a newline, if there was no failure */
+        t->out->size -= !t->status; /* after a success, removes the last byte, which is a newline */
     }
     put(t, "\n]}\n");
 }

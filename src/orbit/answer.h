@@ -23,7 +23,7 @@ enum kd_orbit_format { KD_ORBIT_JSON, KD_ORBIT_NDJSON, KD_ORBIT_CSV, KD_ORBIT_NP
 /* Write the parts of the answer for one orbit. Call them in this order. */
 enum kd_status kd_orbit_answer_begin(const struct kd_orbit_run *run, enum kd_orbit_format format,
                                      struct kd_buffer *out);
-/* first: number of samples that were written before. */
+/* first: number of samples that have already been written. */
 enum kd_status kd_orbit_answer_samples(const struct kd_orbit_params *params, enum kd_orbit_format format,
                                        const struct kd_orbit_sample *samples, size_t n, size_t first,
                                        struct kd_buffer *out);
@@ -36,11 +36,11 @@ enum kd_status kd_orbit_answer_end(const struct kd_orbit_run *run, enum kd_orbit
 enum kd_status kd_orbit_answer_many(const struct kd_orbit_run *runs, size_t n, const struct kd_orbit_sample *samples,
                                     enum kd_orbit_format format, struct kd_buffer *out);
 
-/* Name of a column of the series; NULL if the index is beyond the last. Without an observer a series has only the first
- * ten columns. */
+/* Name of the column of the series with this index; NULL beyond the last column. Without an observer a series has only
+ * the first ten columns. */
 const char *kd_orbit_column(size_t index);
 
-/* The sentence about an approximation with this index; NULL if the index is beyond the last. */
+/* The sentence about the approximation with this index; NULL beyond the last approximation. */
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index);
 
 #endif

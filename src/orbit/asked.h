@@ -22,11 +22,12 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* The word for a method: 
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    /* parameters of the hole; NAN: as in the request. If the request has none either, the spin is that of the named
+    /* parameters of the hole. NAN means the request's parameter. If that is NAN too, the spin is that of the named
      * case, and other parameters are 0 */
     KD_HOLE_MEMBERS
     double p, e, inclination_deg;
-    double energy, momentum, carter, r; /* constants of motion and radius; r is NAN if not given */
+    /* E, L and Q, and the radius r of a point of the orbit; r is NAN if not given */
+    double energy, momentum, carter, r;
     bool outward;
     double place_r, theta_deg, phi_deg, v[3];
     enum kd_observer frame;
@@ -35,8 +36,8 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    /* parameters of the hole; NAN if not given. Such a parameter is 0, except that the spin is that of the named case,
-     * if there is one */
+    /* parameters of the hole; NAN if not given. A parameter that is not given is 0, except that the spin is that of the
+     * named case, if there is one */
     KD_HOLE_MEMBERS
     double periods,
         /* Duration: number of radial periods (turns, if r is constant), or time t in M. At most one of the two is
@@ -48,10 +49,10 @@ struct kd_orbit_params {
     double r_max; /* radius at which an escaping orbit ends; 100 by default */
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;
-    double mass_msun; /* mass by which times are converted to seconds; NAN if not given */
+    double mass_msun; /* mass of the hole, by which times are converted to seconds; NAN if not given */
     uint32_t steps;   /* number of steps per radial period */
-    uint32_t samples; /* number of samples of the series; 0: no series */
-    uint32_t digits;  /* in text: number of significant digits of the series' numbers */
+    uint32_t samples; /* number of samples of the series; 0 for no series */
+    uint32_t digits;  /* number of significant digits of the series' numbers in text */
     enum kd_orbit_way way;
     bool series; /* for many orbits: true if the answer includes their series */
     struct kd_orbit_observer {

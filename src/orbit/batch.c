@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#define FEW 64         /* number of orbits that one slice computes; some 10 ms if each lasts ten periods */
+#define FEW 64         /* number of orbits that one slice computes; ten periods of each take some 10 ms in all */
 #define STEPS 1000000u /* number of steps between two calls of `stop` */
 
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request)
@@ -72,7 +72,7 @@ static int by_steps(const void *a, const void *b)
     return (x->steps > y->steps) - (x->steps < y->steps);
 }
 
-/* Follows a few orbits. Orbits that can run in SIMD lanes do so, grouped by similar duration. */
+/* Follows a few orbits. Orbits that fit in SIMD lanes run there, in groups of similar duration. */
 static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
 {
     struct kd_orbit_run *all[FEW], *abreast[FEW];

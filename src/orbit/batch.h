@@ -12,7 +12,7 @@ struct kd_orbit_batch {
     struct kd_orbit_run *runs;
     struct kd_orbit_sample *samples; /* samples of all orbits; NULL if no series is requested */
     size_t n;
-    /* function that worker threads poll, or NULL; if it returns true, the batch is abandoned */
+    /* function that worker threads call again and again, or NULL; when it returns true, the batch is abandoned */
     bool (*stop)(void *user);
     void *user;
     /* private */
@@ -28,7 +28,7 @@ void kd_orbit_batch_finish(struct kd_orbit_batch *batch);
 size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request);
 
 /* Follows the next few orbits to their ends. Returns false if no orbit is left to begin. Several threads may call this
- * at once. */
+ * function at once. */
 bool kd_orbit_batch_turn(struct kd_orbit_batch *batch);
 /* True when no orbit is being followed and none will be begun. */
 bool kd_orbit_batch_done(const struct kd_orbit_batch *batch);

@@ -13,8 +13,8 @@ struct kd_orbit_feed {
     const struct kd_orbit_request *request;
     enum kd_orbit_format format;
     enum { KD_FEED_START, KD_FEED_SERIES, KD_FEED_DONE } stage;
-    struct kd_orbit_run run;     /* used for one orbit */
-    struct kd_orbit_batch batch; /* used for many orbits */
+    struct kd_orbit_run run;     /* the run, if the request has one orbit */
+    struct kd_orbit_batch batch; /* the batch, if the request has many orbits */
     uint64_t told;               /* number of steps done when progress was last written */
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
@@ -25,13 +25,14 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* Appends the next piece to `out`. For many orbits it appends nothing until all are done. It may return KD_EINVAL
- * before anything is written, as kd_orbit_run_prepare does. */
+/* Appends the next piece to `out`. If the request has many orbits, it appends nothing until all are done. It may return
+ * KD_EINVAL before anything is written, as kd_orbit_run_prepare does. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);
 
-/* Follows orbits of a batch, on another thread than kd_orbit_feed_more. Returns false when no orbit is left to begin.
+/* Follows orbits of a batch. It is called on other threads than kd_orbit_feed_more. Returns false when no orbit is left
+ * to begin.
  */
 bool kd_orbit_feed_help(struct kd_orbit_feed *feed);
 

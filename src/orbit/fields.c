@@ -7,7 +7,7 @@
 #define STATE (1u << KD_ORBIT_STATE)
 #define CASE (1u << KD_ORBIT_CASE)
 /* Schemas of numbers whose ranges hold for every request. Stricter limits, such as the horizon for the given spin, are
- * checked later. For any spin the horizon, at 1 + sqrt(1 - a^2), is not within 1 M (Bardeen, Press & Teukolsky 1972).
+ * checked later. For any spin the horizon, 1 + sqrt(1 - a^2), is at 1 M or beyond (Bardeen, Press & Teukolsky 1972).
  */
 #define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
 _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");

@@ -6,8 +6,8 @@
 #include "orbit/asked.h"
 
 /* The documents of a request. The member `of` of a row has a bit for each form of an orbit. */
-/* the whole request, which fills a struct kd_orbit_params */
+/* document of the whole request, which fills a struct kd_orbit_params */
 extern const struct kd_document kd_orbit_request_document;
-extern const struct kd_document kd_orbit_document; /* one orbit, which fills a struct kd_orbit_spec */
+extern const struct kd_document kd_orbit_document; /* document of one orbit, which fills a struct kd_orbit_spec */
 
 #endif

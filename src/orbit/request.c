@@ -235,7 +235,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {
-    /* true if the turning points are not known exactly, as they are for an orbit given by p and e */
+    /* false for an orbit given by p and e, whose turning points are known exactly */
     bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE;
     return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
 }
@@ -280,8 +280,8 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
-/* Sets the parameters of the hole that the orbit does not give. Does not set the spin where a named case may have its
- * own. */
+/* Sets the parameters of the hole that the orbit does not give. It does not set the spin of a named case, which may
+ * have its own. */
 static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *params)
 {
     if (isnan(spec->spin))
@@ -293,7 +293,7 @@ static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *pa
 #undef INHERIT
 }
 
-/* True if an error about the hole is about a parameter that the orbit takes from the request. */
+/* True if an error about the hole concerns a parameter that the orbit takes from the request. */
 static bool is_of_request(const char *pointer, const struct kd_orbit_spec *spec)
 {
 #define OR_MORE(x, name, ...) || (!strcmp(pointer, "/" #name) && isnan(spec->name))

@@ -43,8 +43,8 @@ struct kd_orbit_request {
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merges a document into a request without orbits. It checks types and ranges, but not whether each orbit exists. If
- * the text is not a JSON document, it returns KD_EINVAL and leaves the error's pointer empty. */
+/* Merges a document into a request that has no orbits yet. The function checks types and ranges, but not whether each
+ * orbit exists. If the text is not a JSON document, it returns KD_EINVAL and leaves the error's pointer empty. */
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 

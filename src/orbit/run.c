@@ -8,10 +8,11 @@
 
 #include <math.h>
 
-/* largest number of turns of an orbit that is followed to its end, as for a whirl next to an unstable circle */
+/* limit of the number of turns of an orbit that is followed to its end; a whirl next to an unstable circle may need
+ * many */
 #define LONGEST_TURNS 1000
 #define DEFAULT_PERIODS 10
-/* number of samples in a row without an image after which only every SEARCH_EVERY-th sample gets a full search for an
+/* after this number of samples in a row without an image, only every SEARCH_EVERY-th sample gets a full search for an
  * image */
 #define SEARCHES 3
 #define SEARCH_EVERY 64
@@ -94,7 +95,7 @@ static double mino_at(const struct kd_orbit_run *run, double time)
 }
 
 /* True if a step has left the range that the constants of motion allow: it went past a turning point, or back without
- * reaching one. This happens close to a whirl if the step is too long. */
+ * reaching one. With too long a step this happens close to a whirl. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
     /* the negation makes this true for NAN as well */
@@ -104,8 +105,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* number of steps after which the search for the end is given up; they take about a second. Far out, steps may be so
- * short that the path would never arrive */
+/* number of steps, about a second of work, after which the search for the end is given up. Far out, steps may be too
+ * short for the path ever to arrive */
 #define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is where the path reaches the horizon or
@@ -134,7 +135,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the path turned within the step, or it comes from infinity with E = 1 */
+        /* the path turned within the step, or comes from infinity with E = 1 */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -194,7 +195,7 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     return found && isfinite(before) ? KD_OK : no_end(run, error);
 }
 
-/* Starts a run, except for the choice of its step. */
+/* Starts a run, without choosing its step. */
 static enum kd_status begin(struct kd_orbit_run *run, struct kd_error *error)
 {
     if (run->params->way == KD_WAY_CLOSED && !run->closed)
@@ -257,7 +258,7 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
         run->first_phi = run->last_phi = 0;
     }
     double pace = sqrt(
-        /* t grows as 1/w^2, so one step must not cross a large part of w */
+        /* t grows as 1/w^2, so one step must not change w by a large part */
         fmax(kd_orbit_radial(&run->orbit, run->aim), 0));
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(error, "/r_max",

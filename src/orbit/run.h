@@ -1,4 +1,5 @@
-/* A run follows one orbit from its start to the end of the request, in pieces. It may be used by one thread at a time.
+/* A run follows one orbit from its start to the end that the request gives, in pieces. It may be used by one thread at
+ * a time.
  */
 #ifndef KD_ORBIT_RUN_H
 #define KD_ORBIT_RUN_H
@@ -8,8 +9,8 @@
 
 struct kd_orbit_sample {
     struct kd_orbit_place place; /* place of the body; t and phi are NAN at the horizon */
-    double x, y, z;              /* Cartesian place: sqrt(r^2 + a^2) sin theta (cos phi, sin phi), r cos theta */
-    double energy_error;         /* relative error of the energy; NAN for the closed form */
+    double x, y, z;      /* Cartesian place: x, y = sqrt(r^2 + a^2) sin theta (cos phi, sin phi), z = r cos theta */
+    double energy_error; /* relative error of the energy; NAN for the closed form */
     struct kd_place_image image; /* image of the body for the observer; NAN if there is none */
 };
 
@@ -26,15 +27,15 @@ enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, 
 
 /* Advances by up to `steps` steps and up to `room` samples. Returns the number of samples written. */
 size_t kd_orbit_run_advance(struct kd_orbit_run *run, uint64_t steps, struct kd_orbit_sample *samples, size_t room);
-/* kd_orbit_run_abreast: true if a run can be advanced in SIMD lanes, because it is prepared and has no samples. The
- * next function advances up to KD_ORBIT_LANES such runs. */
+/* kd_orbit_run_abreast: true if a run can be advanced in SIMD lanes: it is prepared and has no samples.
+ * kd_orbit_run_advance_abreast: advances up to KD_ORBIT_LANES such runs. */
 bool kd_orbit_run_abreast(const struct kd_orbit_run *run);
 void kd_orbit_run_advance_abreast(struct kd_orbit_run *const *runs, int n, uint64_t steps);
 bool kd_orbit_run_done(const struct kd_orbit_run *run);
 double kd_orbit_run_fraction(const struct kd_orbit_run *run);
 
-/* Measured advance of the periastron: azimuth between successive periastra beyond a full turn, as a mean over all
- * periastra so far. NAN before the second periastron. */
+/* Measured advance of the periastron: the azimuth gained beyond a full turn between successive periastra, as a mean
+ * over all periastra so far. NAN before the second periastron. */
 double kd_orbit_run_advance_measured(const struct kd_orbit_run *run);
 
 #endif

@@ -26,21 +26,21 @@ struct kd_orbit_run {
     /* The next members are set by kd_orbit_run_prepare. */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* for an unbound path: 1/r, or t, at its end; NAN if the path ends because its duration is over */
+    double aim; /* 1/r, or t, at the end of an unbound path; NAN if the path ends because its duration is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
     /* Relative error of the place after a radial period, or at the end of an unbound path. It is estimated from a run
-     * with half the number of steps, and is at least `rounding`. NAN if neither is known, which is the case without a
-     * whirl if `steps` was given or the closed form is used. */
+     * with half the number of steps, and is at least `rounding`. NAN if neither is known: without a whirl, if `steps`
+     * was given or the closed form is used. */
     double error_estimate;
     /* The next members change in kd_orbit_run_advance. */
     struct kd_orbit_path path;
     struct kd_orbit_drift worst; /* largest absolute drifts so far */
     uint64_t periastra;
     double first_phi, last_phi;  /* azimuths at the first and at the last periastron */
-    struct kd_place_view view;   /* view of the observer */
+    struct kd_place_view view;   /* the observer's view, in which images are found */
     struct kd_place_image image; /* the image that was found last */
-    unsigned missed;             /* number of samples since the last image was found */
+    unsigned missed;             /* number of samples since an image was last found */
 };
 
 #endif

@@ -32,8 +32,8 @@ static struct trial begin(const struct kd_orbit_run *run)
     /* the trial stops a little before the horizon, where t is infinite */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
     /* On an unbound path the step has an upper limit, for two reasons. First, the motion becomes fast at the end of a
-     * fall, and the start of the span does not show this. Second, a whirl magnifies errors that do not come from the
-     * step. */
+     * fall, which the rates at the start of the span do not show. Second, a whirl magnifies errors that do not come
+     * from the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -46,8 +46,8 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
     return isnan(a->t) || isnan(a->r) ? INFINITY : d;
 }
 
-/* Judges a trial, for a method of order 6. If halving the step changes the result by some amount, 1/63 of that amount
- * is the remaining error. The search stops when rounding, or a whirl that magnifies rounding, prevents a further gain.
+/* Judges a trial, for a method of order 6. When the step is halved, the remaining error is 1/63 of the change of the
+ * result. The search stops when rounding, or a whirl that magnifies rounding, prevents a further gain.
  */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {

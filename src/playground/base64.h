@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Length of the text for n bytes, without the final NUL. */
+/* Length of the Base64 of n bytes, without the final NUL. */
 static inline size_t kd_base64_length(size_t n) { return (n + 2) / 3 * 4; }
 
 /* Writes kd_base64_length(n) characters and a NUL. */

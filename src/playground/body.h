@@ -27,8 +27,8 @@ struct kd_playground_body {
      * is 0 outside a pass. depth: largest r_t/r so far. shed: fraction of the mass that is lost. told: fraction that
      * events have reported. */
     double whole_mass, whole_radius, depth, shed, told;
-    uint32_t source;    /* during a pass: number of the source of this body's debris */
-    double radiated;    /* orbital energy lost to gravitational waves */
+    uint32_t source;    /* number of the source of this body's debris; used only during a tidal pass */
+    double radiated;    /* orbital energy that the body has lost to gravitational waves */
     bool told_inspiral; /* true if an event has reported that the body is inside 6 M */
 };
 

@@ -26,8 +26,8 @@ enum kd_status kd_debris_resize(struct kd_playground_debris *debris, uint32_t ca
 {
     if (capacity == debris->capacity && debris->pieces)
         return KD_OK;
-    struct kd_debris_piece *pieces =
-        calloc(capacity + 1, sizeof *pieces); /* one more than the capacity, so that the allocation is never empty */
+    /* allocates one more slot than the capacity, so that the allocation is never empty */
+    struct kd_debris_piece *pieces = calloc(capacity + 1, sizeof *pieces);
     if (!pieces)
         return kd_error_set(error, KD_ENOMEM, "no memory for %u pieces of debris", capacity);
     /* Copies pieces backwards from the newest one, which is just before `next`. */
@@ -86,7 +86,7 @@ static void directions(const double x[3], const double v[3], double e[3][3])
     for (int k = 0; k < 3; k++)
         across[k] = v[k] - out * e[0][k];
     length = kd_playground_radius(across);
-    if (!(length > 1e-9)) { /* motion is radial, so any tangential direction will do */
+    if (!(length > 1e-9)) { /* the motion is radial, so any tangential direction serves */
         const int k = fabs(e[0][2]) < 0.9 ? 2 : 0;
         for (int i = 0; i < 3; i++)
             across[i] = (i == k) - e[0][k] * e[0][i];
@@ -256,8 +256,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* True unless the bin is only partly covered in time, as are the bin that contains the present and the first bin in
- * which a piece came back. The last bin has no upper end. */
+/* True if the bin's time is covered completely. This is false for the bin that contains the present, and for the first
+ * bin in which a piece came back. The last bin has no upper end. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

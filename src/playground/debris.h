@@ -22,7 +22,7 @@
 enum { KD_DEBRIS_SOURCES = 256, KD_DEBRIS_BINS = 128, KD_DEBRIS_PER_DECADE = 16 };
 
 /* Stage of a piece. LEAVES: it is before its first apocentre. RETURNS: it falls back. BACK: it has come back. FREE: the
- * slot is empty. */
+ * slot has no piece. */
 enum kd_debris_stage { KD_DEBRIS_FREE, KD_DEBRIS_LEAVES, KD_DEBRIS_RETURNS, KD_DEBRIS_BACK };
 
 struct kd_debris_piece {
@@ -33,12 +33,13 @@ struct kd_debris_piece {
 struct kd_debris_source {
     uint32_t number; /* number of the source, from 1 on; 0 if this slot is free */
     char name[KD_PLAYGROUND_NAME];
-    double t;                /* time at which the source's first piece was torn off */
-    double piece_mass;       /* mass of one piece of this source */
-    double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
-    double spread;           /* half width of the range of the pieces' energies, R/r_t^2 */
-    uint32_t pieces;         /* number of pieces that were torn off so far */
-    uint32_t captured, lost; /* number of pieces that the hole captured; number that newer pieces replaced */
+    double t;          /* time at which the source's first piece was torn off */
+    double piece_mass; /* mass of each piece of this source */
+    double worth;      /* weight of a piece for pictures, as a fraction of a whole body */
+    double spread;     /* half width of the range of the pieces' energies, R/r_t^2 */
+    uint32_t pieces;   /* number of pieces that were torn off so far */
+    /* captured: number of pieces that the hole captured. lost: number of pieces that newer ones replaced */
+    uint32_t captured, lost;
     uint32_t back[KD_DEBRIS_BINS], all_back;
 };
 
@@ -48,10 +49,10 @@ struct kd_playground_debris {
     uint32_t capacity, used, next;
     uint32_t last_source; /* number of the newest source, whose index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
-    /* sum of 1/(r - 2) over the pieces at time t; divided by C it is the number of sub-steps that all pieces need for 1
-     * M */
+    /* sum of 1/(r - 2) over the pieces at time t. Divided by C, it is the number of sub-steps that all pieces need for
+     * 1 M */
     double haste;
-    double t; /* common time of all pieces */
+    double t; /* time of all pieces, M */
     struct kd_debris_source sources[KD_DEBRIS_SOURCES];
 };
 
@@ -67,9 +68,9 @@ struct kd_debris_source *kd_debris_source_begin(struct kd_playground_debris *deb
 struct kd_debris_source *kd_debris_source_of(struct kd_playground_debris *debris, uint32_t number);
 
 /* Parameters for tearing n pieces off a body of the given radius at x with the velocity v. The energies of the pieces
- * are spread evenly within `spread` of the body's energy. Pieces of lower energy start nearer to the hole, pieces of
- * higher energy farther away. After that the energies do not change, and each piece moves freely (M. Rees 1988, Nature
- * 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
+ * are spread evenly from -spread to +spread about the body's energy. Pieces of lower energy start nearer to the hole,
+ * pieces of higher energy farther away. After that the energies do not change, and each piece moves freely (M. Rees
+ * 1988, Nature 333, 523; N. Stone et al. 2013, MNRAS 435, 1809). */
 struct kd_debris_shed {
     const double *x, *v;
     double radius;

@@ -29,7 +29,7 @@ struct kd_playground_event {
     uint64_t number; /* number of the event, from 1 on */
     double t;
     enum kd_playground_event_kind kind;
-    uint32_t body, other; /* ids of the bodies; `other` is 0 if there is only one */
+    uint32_t body, other; /* ids of the bodies of the event; `other` is 0 if there is only one body */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
     /* For a merger: masses of the two bodies before it. For shedding and disruption: the lost mass, and the mass that
      * is left. */

@@ -21,7 +21,7 @@ struct kd_playground_geodesic {
     double from_x[3], from_v[3], from_t;
     double phi;                 /* azimuth at the start */
     double h;                   /* step in Mino time */
-    struct kd_orbit_path path;  /* state at the time of the last kd_geodesic_approach, or before it */
+    struct kd_orbit_path path;  /* state that kd_geodesic_approach reached last, at its time or before it */
     struct kd_orbit_path begun; /* state at the last time reached; kd_geodesic_back returns to it */
 };
 
@@ -46,7 +46,7 @@ enum kd_geodesic_fate kd_geodesic_at(struct kd_playground_geodesic *g, double t,
 enum { KD_GEODESIC_STATE = 20 };
 void kd_geodesic_save(const struct kd_playground_geodesic *g, double state[KD_GEODESIC_STATE]);
 void kd_geodesic_restore(struct kd_playground_geodesic *g,
-                         /* restores the state; call it after kd_geodesic_begin */
+                         /* restores this state; call it after kd_geodesic_begin */
                          const double state[KD_GEODESIC_STATE]);
 
 #endif

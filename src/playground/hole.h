@@ -11,7 +11,7 @@
 #include <math.h>
 
 #define KD_PLAYGROUND_HORIZON 2. /* r_s */
-/* radius within which bodies are captured, so that sub-steps never reach the horizon */
+/* radius within which bodies are captured; it is large enough that sub-steps never reach the horizon */
 #define KD_PLAYGROUND_CAPTURE 2.05
 
 static inline double kd_playground_radius(const double x[3]) { return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }

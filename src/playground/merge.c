@@ -124,6 +124,6 @@ void kd_playground_capture(struct kd_playground *p)
                                                          body->x[(k + 2) % 3] * body->v[(k + 1) % 3]);
         kd_playground_drop(p, i);
     }
-    if (taken) /* computed once for all captures, because the computation visits all pairs */
+    if (taken) /* computed once for all captures, because it takes a pass over all pairs */
         p->spent.captured_energy += before - kd_playground_totals(p).energy;
 }

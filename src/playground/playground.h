@@ -38,7 +38,7 @@
 
 #include "base/error.h"
 
-#define KD_PLAYGROUND_TIME 1e12 /* end of time, M; also for scenes */
+#define KD_PLAYGROUND_TIME 1e12 /* latest time of a playground and of a scene, M */
 
 /* Sums of everything that has been removed from the motion of the bodies since the beginning. With these sums, energy
  * and momentum are conserved. */
@@ -46,10 +46,10 @@ struct kd_playground_spent {
     /* mass, energy and angular momentum of captured bodies */
     double captured_mass, captured_energy, captured_momentum[3];
     double merged;                 /* energy that became heat in mergers of bodies */
-    double capped;                 /* energy removed because speeds are capped at c */
-    double capped_momentum[3];     /* momentum removed by this cap, where the pull of other bodies dominated */
+    double capped;                 /* energy removed by the cap of speeds at c */
+    double capped_momentum[3];     /* momentum removed by this cap where the attraction of other bodies dominated */
     double radiated;               /* energy lost to gravitational waves */
-    double torn_mass, torn_energy; /* mass and energy that became debris */
+    double torn_mass, torn_energy; /* mass and energy of the matter that became debris */
     /* Energy that was added or removed from outside: by adding, removing or changing bodies, and by recomputing the
      * mutual potential. */
     double given;
@@ -64,13 +64,13 @@ struct kd_playground {
     uint32_t last_id;
     double rate;     /* 1/h of the previous step; 0 if the next step is chosen without regard to a previous one */
     uint64_t random; /* number of random numbers drawn so far */
-    bool held;       /* true if the loss to waves was limited, at least once, to a tenth of the attraction */
+    bool held;       /* true if the acceleration by waves was limited, at least once, to a tenth of the attraction */
     struct kd_playground_spent spent;
     struct kd_playground_events events;
     struct kd_playground_debris debris;
     struct kd_playground_series series;
     struct kd_playground_geodesic *geodesics; /* for gravity "kerr": a geodesic for each body */
-    /* The members from here on follow from those above. */
+    /* The members below are computed from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
     double before; /* energy before the first change from outside since the last step */
@@ -80,7 +80,7 @@ struct kd_playground {
     size_t approached;
     bool forced;                  /* true if `mutual` is up to date */
     double margin;                /* margin with which `mutual` was computed */
-    double last_row[KD_SERIES_N]; /* row of the series from before the current step */
+    double last_row[KD_SERIES_N]; /* row of the series at the time before the current step */
 };
 
 enum kd_status kd_playground_create(const struct kd_playground_params *params, struct kd_playground **out,
@@ -103,7 +103,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
                                  struct kd_error *error);
 
 struct kd_playground_progress {
-    double asked, done; /* requested time and time done, M */
+    double asked, done; /* time requested, and time done, M */
     uint32_t steps;
     /* true if the budget was spent before the time was over, or if the time ends beyond KD_PLAYGROUND_TIME */
     bool slowed;
@@ -118,7 +118,7 @@ void kd_playground_advance(struct kd_playground *p, double time, struct kd_playg
  * "kerr". A sub-step with a million pieces of debris takes tens of milliseconds. */
 struct kd_playground_run {
     double begin, end;
-    double stride; /* for gravity "kerr": time between updates of the bodies */
+    double stride; /* gravity "kerr": time between updates of the bodies, M */
     uint64_t first;
     /* Remaining sub-steps or, for gravity "kerr", remaining steps of geodesics. The caller may lower this after
      * kd_playground_begin. */

@@ -52,8 +52,8 @@ static enum kd_status disruption(struct kd_playground *p, struct kd_error *error
 }
 
 /* Settings for a white dwarf of one solar mass and 5500 km radius, and a hole of a thousand solar masses. The parabola
- * is as deep as the star's. The tidal radius is 37 M. The most tightly bound debris comes back after 16 000 M, which is
- * 78 s. */
+ * is as deep as that of the sun-like star above. The tidal radius is 37 M. The most tightly bound debris comes back
+ * after 16 000 M, which is 78 s. */
 static void dwarf_settings(struct kd_playground_params *s)
 {
     s->h_max = 5;

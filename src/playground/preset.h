@@ -6,10 +6,10 @@
 
 struct kd_playground_preset {
     const char *name, *title;
-    double rate;             /* suggested speed of time, M a second */
-    double centre[3], reach; /* suggested view: its centre, and half its width, M */
+    double rate;             /* suggested speed of time, M per second */
+    double centre[3], reach; /* suggested view: centre and half width, M */
     void (*settings)(struct kd_playground_params *params);
-    /* Adds the preset's bodies to an empty playground. The playground has the preset's settings or other ones. */
+    /* Adds the preset's bodies to an empty playground. The playground may have other settings than the preset's. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
     const char *scene; /* JSON of a suitable scene, with the members that differ from the default scene */
 };

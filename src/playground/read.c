@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define PIECES 16384 /* number of pieces of debris that are copied at a time, which takes a millisecond */
-/* largest number of values in a document: some fifty for each of 4 096 bodies, and the sources' counts */
+/* largest number of values in a document: some fifty for each of 4 096 bodies, and the counts of the debris' sources */
 #define VALUES 4000000
 
 static enum kd_status read_name(struct kd_playground_body *body, const cJSON *item, const char *pointer,
@@ -104,7 +104,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
             return kd_error_field(error, pointer, "there is no body with this id, or it no longer exists");
         body = *old;
         if (cJSON_HasObjectItem(item, "mass") || cJSON_HasObjectItem(item, "radius"))
-            body.whole_mass = 0; /* treats the changed body as another star, whose tidal pass starts afresh */
+            body.whole_mass = 0; /* the changed body counts as another star, whose tidal pass starts afresh */
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
@@ -243,7 +243,7 @@ enum kd_status kd_playground_read(const char *text, size_t length, struct kd_pla
     return status;
 }
 
-/* Makes a copy that can be modified and discarded. */
+/* Makes a copy of a playground, which can be modified and discarded. */
 static enum kd_status copy(const struct kd_playground *from, struct kd_playground **out, struct kd_error *error)
 {
     struct kd_playground *p = malloc(sizeof *p);

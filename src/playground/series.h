@@ -51,11 +51,11 @@ double kd_series_next(const struct kd_playground_series *series);
 /* Adds the rows after the sub-step `before`, up to the sub-step `now`. */
 void kd_series_add(struct kd_playground_series *series, const double before[KD_SERIES_N],
                    const double now[KD_SERIES_N]);
-/* True if the present row `now` is later than the last row, so that files append it. */
+/* True if the present row `now` is later than the last row. Files then append it. */
 bool kd_series_lacks(const struct kd_playground_series *series, const double now[KD_SERIES_N]);
 const char *kd_series_column(int i);
 
-/* Appends all rows to a file, and also `now` if it is later than the last row. The form is text/csv with a line of
+/* Appends all rows to a file, and also `now` if it is later than the last row. The format is text/csv with a line of
  * names, or an NPY array of records. There are at most KD_SERIES_ROWS rows. Returns KD_ENOMEM if memory is short. */
 enum kd_status kd_series_csv(const struct kd_playground_series *series, const double now[KD_SERIES_N],
                              struct kd_buffer *out);

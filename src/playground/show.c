@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define LIMB 0.6    /* the default of bodies.limb_darkening */
-#define PER_CELL 6. /* least mean number of pieces in occupied cells */
+#define PER_CELL 6. /* least number of pieces, on average, in an occupied cell */
 
 /* Factor that converts a Newtonian velocity to the velocity relative to the observer of zero angular momentum (show.h).
  */
@@ -70,7 +70,7 @@ enum {
     COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST,
     LOW = -1024,
     HIGH = 3072
-}; /* the rows are all that can occur for a valid r */
+}; /* these rows cover every valid r */
 
 static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
 {
@@ -93,7 +93,7 @@ static bool take(const struct kd_show_place *places, size_t n, struct taken *out
     return seen;
 }
 
-/* Finds the range of columns outside the widest empty gap. The range has a first column and a count. */
+/* Finds the range of columns outside the widest empty gap: its first column and number of columns. */
 static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, uint32_t *count)
 {
     uint32_t widest = 0, run = 0;
@@ -105,7 +105,7 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
             *first = (i + 1) % KD_SHOW_TURN_LEAST;
         }
     }
-    if (widest < 2) /* ignores a gap that is this narrow */
+    if (widest < 2) /* a gap as narrow as this is ignored */
         *first = widest = 0;
     *count = KD_SHOW_TURN_LEAST - widest;
 }
@@ -262,7 +262,7 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
     return KD_OK;
 }
 
-/* The radius within which nine pieces in ten are, to one per cent; 0 if there are no pieces. */
+/* The radius within which nine pieces in ten are, with an error of one per cent; 0 if there are no pieces. */
 static double most_within(const struct kd_playground_debris *debris)
 {
     enum { BINS = 4200 }; /* number of bins in ln r, up to 1e18 M */

@@ -40,8 +40,8 @@ enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *pres
                                          struct kd_scene *out, struct kd_error *error);
 
 /* The functions from here on are private to src/playground, and for tests. They compute the places of pieces in (ln r,
- * azimuth), choose the grid (at most KD_SHOW_NODES nodes), and distribute the pieces over the nodes. worth: weight of a
- * piece of each source, in bodies. */
+ * azimuth), choose the grid (at most KD_SHOW_NODES nodes), and distribute the pieces over the nodes. worth: for each
+ * source, the weight of one piece, in bodies. */
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };
 struct kd_show_place {
     float row, column;

@@ -24,7 +24,7 @@ static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;
     double rate = 1 / s->h_max;
-    /* makes the step no longer than the longest stride of the debris */
+    /* limits the step to the longest stride of the debris */
     rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety));
     for (size_t i = 0; i < p->n; i++) {
         const double r = kd_playground_radius(p->bodies[i].x);
@@ -48,7 +48,7 @@ static void hold(struct kd_playground *p, struct kd_playground_body *body, bool 
         p->spent.capped_momentum[k] += body->mass * (v - 1) * body->v[k];
 }
 
-/* Applies the acceleration a for the time share * time, and adds the lost energy to the sums. */
+/* Applies the acceleration a for the time share * time, and adds the energy lost to waves to the sums. */
 static void lose(struct kd_playground *p, struct kd_playground_body *body, const double a[3], double share, double time)
 {
     double work = 0;
@@ -203,7 +203,7 @@ void kd_playground_series_begin(struct kd_playground *p, double span)
     kd_series_begin(&p->series, row, span, p->params.h_max);
 }
 
-/* Saves the present row if a step of length `longest` could pass the time of the next row of the series. */
+/* Saves the present values as a row if a step of length `longest` could pass the time of the series' next row. */
 static void record_before(struct kd_playground *p, double longest)
 {
     p->last_row[KD_SERIES_t] = NAN;
@@ -233,8 +233,8 @@ static void advance_debris(struct kd_playground *p)
         kd_debris_advance(debris, p->t, p->params.safety, p->params.feeds);
 }
 
-/* Takes one sub-step, with its consequences. If only debris is left, the step is the longest stride that the debris
- * allows. Returns false if h is below the resolution of t. */
+/* Takes one sub-step, and handles mergers, captures and tides. If only debris is left, the step is the longest stride
+ * that the debris allows. Returns false if h is below the resolution of t. */
 static bool go(struct kd_playground *p)
 {
     record_before(p, p->params.h_max); /* no step is longer than h_max */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 0.1 /* further fraction of its mass that a star must lose before the next event */
+#define TOLD 0.1 /* fraction of its mass that a star must lose between two events */
 
 double kd_tide_radius(double mass, double radius) { return radius * cbrt(1 / mass); }
 
@@ -126,6 +126,6 @@ void kd_playground_tides(struct kd_playground *p)
         if (shed(p, body))
             kd_playground_drop(p, --i);
     }
-    if (counted) /* computed once for all stars, because it visits all pairs */
+    if (counted) /* computed once for all stars, because it takes a pass over all pairs */
         p->spent.torn_energy += before - kd_playground_totals(p).energy;
 }

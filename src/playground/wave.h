@@ -17,8 +17,8 @@
 
 struct kd_playground_body;
 
-/* Sets *a to the relative acceleration times `amplification`, limited to a tenth of m/r^2. Returns true if it was
- * limited. */
+/* Sets *a to the relative acceleration times `amplification`, limited to a tenth of m/r^2. Returns true if the limit
+ * was applied. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
 /* The same acceleration for a body of mass m at x that orbits the fixed hole. In the hole's potential (hole.h) a

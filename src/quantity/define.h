@@ -54,7 +54,7 @@
 #define KD_PARAMETER_HOLE_MORE(P) KD_HOLE_MORE(KD_DEFINE_MORE, P)
 /* The hole with these parameters, for use as a function's argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
 #define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_in(p) })
-/* Rows of outputs right, up and inwards: the direction from which light reaches an observer at a finite radius. */
+/* Rows of the outputs right, up and inwards: the direction from which light reaches an observer at a finite radius. */
 #define KD_RESULTS_DIRECTION(O) \
     O(right, .unit = "1", \
       .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \

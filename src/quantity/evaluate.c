@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Advances to the next combination of values; the last parameter varies fastest. Returns true if a parameter other than
- * those along a curve has changed. */
+/* Advances to the next combination of the parameters' values; the last parameter varies fastest. Returns true if a
+ * parameter other than those along a curve has changed. */
 static bool advance(const struct kd_quantity_request *request, size_t at[KD_QUANTITY_PARAMETERS])
 {
     bool fresh = false;

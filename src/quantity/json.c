@@ -20,7 +20,7 @@ static void write_axis(struct kd_writer *w, const struct kd_row *p, const struct
     kd_write(w, "]");
 }
 
-/* Writes, if several parameters are ranges, their names and counts in the order of nesting. */
+/* If several parameters are ranges, writes their names and their numbers of values, the outermost range first. */
 static void write_shape(struct kd_writer *w, const struct kd_quantity_request *request)
 {
     const struct kd_quantity *quantity = request->quantity;
@@ -80,7 +80,7 @@ static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
         kd_write(w, "%s\"%s\":\"%s\"", separator, quantity->outputs[i].name, quantity->outputs[i].unit);
 }
 
-/* The value of a parameter. For a range it is one of the values that is not 0. If the quantity does not have the
+/* The value of a parameter. For a range it is a value of the range that is not 0. If the quantity does not have the
  * parameter, it is 0. */
 static double value_of(const struct kd_quantity_request *request, const char *name)
 {

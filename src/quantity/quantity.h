@@ -34,8 +34,8 @@ enum {
 };
 
 /* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. A number may also
- * have a word as an alternative, for which the function gets INFINITY. For a parameter with words the function gets the
- * index of the word. The default is the text `typed`. */
+ * have a word as an alternative; for this word the function gets INFINITY. For a parameter with words the function gets
+ * the index of the word. The default is the text `typed`. */
 
 /* An output is NaN where the quantity is undefined (`help` says where). NaN is null in JSON, and an empty field in
  * CSV. */
@@ -61,7 +61,7 @@ struct kd_quantity {
     /* Largest times on a core of 2020, in microseconds, including the text of the answer. point_us: for each point.
      * fresh_us: in addition, for each fresh point. */
     double point_us, fresh_us;
-    bool sound; /* true if one point can be played as sound (quantity/sound.h) */
+    bool sound; /* true if an answer of one point can be played as sound (quantity/sound.h) */
 };
 
 extern const struct kd_quantity *const kd_quantities[];
@@ -108,7 +108,7 @@ void kd_quantity_answer_finish(struct kd_quantity_answer *answer);
  * equals answer.points. */
 struct kd_quantity_run {
     struct kd_quantity_answer answer;
-    size_t point; /* number of points done */
+    size_t point; /* number of points that have been evaluated */
     /* private */
     size_t at[KD_QUANTITY_PARAMETERS];
     double out[KD_QUANTITY_OUTPUTS];
@@ -129,8 +129,8 @@ enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct 
 /* Writes a line of names, then one line for each point: all parameters, then all outputs. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 
-/* Write all quantities with their parameters and outputs. The first function writes JSON, the second the document
- * docs/physics-quantities.md. */
+/* Write all quantities with their parameters and outputs. The first function writes JSON. The second writes the
+ * document docs/physics-quantities.md. */
 enum kd_status kd_quantity_list_json(struct kd_buffer *out);
 enum kd_status kd_quantity_reference(struct kd_buffer *out);
 

@@ -42,7 +42,7 @@ static const char *const approximations[] = { NULL };
 
 struct memory { struct kd_sky_view view; };
 
-/* Far away the sky is undistorted, and the hole is a point. */
+/* At infinity the sky is undistorted, and the hole is a point. */
 static void far_away(struct outputs *o) { *o = (struct outputs) { 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0 }; }
 
 static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o,

@@ -50,7 +50,7 @@ struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));
     /* mixes the colour with the grey (1, 1, 1), whose luminance is 1, as c + s (1 - c). s is the least fraction for
-     * which the lowest component is 0 */
+     * which no component is negative */
     if (low < 0) {
         double s = low / (low - 1);
         c = (struct kd_colour_rgb) { c.r + s * (1 - c.r), c.g + s * (1 - c.g), c.b + s * (1 - c.b) };

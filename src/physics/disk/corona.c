@@ -16,7 +16,7 @@
 #define EXACT 1e-8    /* allowed error of ln r for a ray that meets a ring */
 #define RIGHT 1e-4    /* relative change of epsilon below which no more angles are added */
 #define CORRECT 1e-10 /* allowed error of a direction on the sky, in the chart below */
-/* radius to which light is followed, M; the time for the rest of the way to infinity is added */
+/* radius to which light is followed, M; a formula gives the time from there to infinity */
 #define FAR 1e7
 #define DIFFERENCE 1e-5 /* step for finite differences on the source's sky, radians */
 enum { FEWEST = 16, PLACES = 2000, NEWTON = 60 };
@@ -41,9 +41,9 @@ bool kd_corona_source_of(const struct kd_hole *hole, double radius, double heigh
 }
 
 /* Makes the ray of a photon that leaves along the unit vector m. Of the result only energy, momentum and solid are set.
- * The ray is that of another photon, which arrives with the same E and L and with opposite p_r and p_theta, and is
- * traced back (null_geodesic.h). The two paths are the same, because the metric does not change under (t, phi) -> (-t,
- * -phi). */
+ * null_geodesic.h traces arriving photons backwards, so the ray is that of a photon which arrives with the same E and L
+ * and with opposite p_r and p_theta. The two paths are the same, because the metric does not change under (t, phi) ->
+ * (-t, -phi). */
 static struct kd_corona_photon send(const struct kd_corona_source *source, const double m[3], struct kd_null_ray *ray)
 {
     const struct kd_vantage *at = &source->frame.at;
@@ -82,8 +82,8 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 
 static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
 
-/* Finds the value x = ln tan(delta/2) for which the ray along chi meets the ring. It starts from guesses of x and of d
- * ln r/dx. Because r grows with x, the root can be bracketed, and the secant method stays within the bracket. */
+/* Finds the x = ln tan(delta/2) for which the ray with this chi meets the ring. The search starts from guesses of x and
+ * of d ln r/dx. Because r grows with x, the root can be bracketed, and the secant method is kept within the bracket. */
 static bool find(const struct kd_corona_source *source, double chi, double r, double slope, double *found,
                  struct kd_corona_photon *photon)
 {
@@ -169,7 +169,7 @@ static double slope_at(const double *values, int k)
     return sum;
 }
 
-/* Computes, for one angle, the parts at all rings, from the innermost outwards. */
+/* Computes the parts of epsilon at one angle for all rings, from the innermost outwards. */
 static bool make_angle(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                        const double *radii, int j)
 {
@@ -200,7 +200,8 @@ static bool make_angle(struct kd_corona *c, const struct kd_corona_source *sourc
     return true;
 }
 
-/* Sums the angles of each ring. Returns the largest relative change of a sum when every second angle is left out. */
+/* Sums the parts of all angles for each ring. Returns the largest relative change of a sum when every second angle is
+ * left out. */
 static double add_up(struct kd_corona *c)
 {
     double worst = 0;
@@ -221,9 +222,9 @@ void kd_corona_finish(struct kd_corona *c)
     c->log_part = c->time = NULL;
 }
 
-/* Makes n angles. If n exceeds the smallest number, every second angle has already been computed. The sum over a period
- * converges so fast that, after a doubling, the error is about the square of the last change. For safety the reported
- * error is the last change to the power 1.5. */
+/* Computes the parts at n angles. If n exceeds the smallest number of angles, every second angle is known already. The
+ * sum over a period converges so fast that, after a doubling of n, the error is about the square of the last change.
+ * For safety the last change to the power 1.5 is reported as the error. */
 static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                                   const double *radii, int n)
 {
@@ -390,7 +391,7 @@ static bool aim(const struct kd_corona_source *source, const double want[2], dou
     return false;
 }
 
-/* Coordinate time of the light from the source to infinity, minus r_o + 2 ln r_o. The part beyond FAR is computed to
+/* Coordinate time of the light from the source to infinity, minus r_o + 2 ln r_o. The time beyond FAR is computed to
  * first order in 1/FAR, from dt/dr = 1 + 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A is defined in
  * null_quartic.h). */
 static double time_of(const struct kd_corona_source *source, const double m[3])
@@ -409,7 +410,7 @@ static double time_of(const struct kd_corona_source *source, const double m[3])
     return last->delay - last->r - 2 * log(last->r) + rest / last->r;
 }
 
-/* The direction from the source towards (theta, azimuth) if light were not bent. */
+/* The direction in which light would leave the source towards (theta, azimuth) without bending. */
 static void straight(const struct kd_corona_source *source, double cos_i, double azimuth, double m[3])
 {
     const double sin_i = sqrt((1 - cos_i) * (1 + cos_i)), u = source->frame.at.u, s = source->frame.at.s;
@@ -418,8 +419,8 @@ static void straight(const struct kd_corona_source *source, double cos_i, double
     m[2] = sin_i * sin(azimuth);
 }
 
-/* Finds the direction in a number of steps, starting from m. The target of each step lies between the direction in
- * which the light of m arrives and the wanted one. */
+/* Finds the direction in several steps, starting from m. The targets of the steps lead from the place where the light
+ * of m arrives to the wanted place. */
 static bool aim_by_steps(const struct kd_corona_source *source, const double want[2], int steps, double m[3],
                          double *solid)
 {
@@ -436,7 +437,7 @@ static bool aim_by_steps(const struct kd_corona_source *source, const double wan
 }
 
 /* Finds the direction, starting from m. This may fail because the ray of m is bent down to the plane or into the hole.
- * In that case it starts from other directions, further and further from m. */
+ * The search then starts again from other directions, further and further from m. */
 static bool aim_anew(const struct kd_corona_source *source, double cos_i, double azimuth, const double want[2],
                      double m[3], double *solid)
 {
@@ -511,8 +512,8 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
     return n;
 }
 
-/* Makes the table of a corona's light. For a single ring it is the table of that ring. For several rings the nodes of
- * the table are even in ln r. */
+/* Makes the table of a corona's light. A corona of a single ring has the nodes of that ring's table. For other coronas
+ * the nodes are even in ln r. */
 static enum kd_status make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                  double inner, double outer, struct kd_corona_light *out)
 {

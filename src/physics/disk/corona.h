@@ -55,8 +55,8 @@ struct kd_corona_source {
 /* Makes a source from its motion and place. Returns false if no ring can have this motion there: the speed would be 1
  * or more, or the place is within KD_CORONA_LEAST times the radius of the ergosphere. */
 #define KD_CORONA_LEAST 1.05
-/* The smallest ratios of height to largest radius that KD_CORONA_ANGLES directions resolve. The first is for a ring,
- * the second for other shapes. */
+/* The smallest ratio of a corona's height to its largest radius that KD_CORONA_ANGLES directions resolve: for a ring,
+ * and for other shapes. */
 #define KD_CORONA_FLATTEST 0.05
 #define KD_CORONA_FLATTEST_SHAPE 0.1
 bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
@@ -87,12 +87,12 @@ enum { KD_CORONA_PARTS = 64 };
 struct kd_corona_ring { double radius, height, weight; };
 int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS]);
 
-/* The light that one ring of a corona sends to the rings of the disk, by angle. */
+/* The light that one ring of a corona sends to the rings of the disk, for each angle chi. */
 struct kd_corona {
     struct kd_corona_light light;
     int angles;
-    /* Arrays by ring and angle, malloc'd. log_part: ln of the angle's part of epsilon. time: coordinate time from the
-     * source to the disk. */
+    /* Allocated arrays, indexed by ring of the disk and angle. log_part: ln of the angle's part of epsilon. time:
+     * coordinate time from the source to the disk. */
     double *log_part, *time;
 };
 
@@ -109,11 +109,11 @@ void kd_corona_parts(const struct kd_corona *corona, double r, double *part, dou
  * ring. */
 enum { KD_CORONA_AZIMUTHS = 64 };
 struct kd_corona_direct {
-    int n;       /* number of azimuths; 1 for a source on the axis */
-    double flux; /* the flux F defined above */
+    int n;       /* number of azimuths in use; 1 for a source on the axis */
+    double flux; /* the flux F that the head of this file defines */
     double g;    /* mean of E, weighted by the flux */
     double time; /* mean coordinate time to the observer minus r_o + 2 ln r_o, weighted by the flux */
-    /* for each azimuth: its part of the flux, and its time */
+    /* for each azimuth: its part of the flux, and the time of its light */
     double part[KD_CORONA_AZIMUTHS], part_time[KD_CORONA_AZIMUTHS];
 };
 /* Computes the direct light of a ring, in some milliseconds. cos_i must be positive. Returns false if the image of one

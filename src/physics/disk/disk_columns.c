@@ -10,26 +10,26 @@
 #include <math.h>
 #include <string.h>
 
-/* Lengths (M) at which the spacing changes from even to geometric. HOLE: for the spacing of columns. The next one: for
- * that of places along a column. */
+/* Lengths (M) at which the spacing changes from even to geometric. HOLE: length for the spacing of columns. THIN:
+ * length for the spacing of places along a column. */
 #define HOLE 2.
 #define THIN 0.2
 #define BESIDE 1e-9 /* beta of the place next to the plane; not 0, because a ray at beta = 0 could lie in the plane */
 enum {
     PLACES = 48,  /* number of places into which a column is first divided */
-    DEEPEST = 16, /* number of times that a cell with an edge is halved; more for a narrow disk */
+    DEEPEST = 16, /* number of times that a cell with an edge of the disk is halved; more for a narrow disk */
     NARROW = 8,   /* least number of cells across a narrow disk */
     SEARCHED = 24 /* number of steps of the golden section that searches the smallest radius of a column */
 };
 #define ASIDE 0.01 /* distance of the rays from which the slope of r is computed, as a fraction of a column's width */
 #define SHORTER 0.61803398874989485
 
-/* Values of `order` for a ray that shows no point of the disk: it passes within the inner edge, or beyond the outer
- * edge. */
+/* Values of `order` for a ray that shows no point of the disk. WITHIN: the ray passes within the inner edge. BEYOND: it
+ * passes beyond the outer edge. */
 enum { WITHIN = -1, BEYOND = -2 };
 
-/* A place on a column. seen: the point of the disk that is seen there, or a value above. first: radius of the first
- * crossing of the plane; 0 if the ray is captured before it, INFINITY if it escapes. */
+/* A place on a column. seen: the point of the disk that is seen there; its order is WITHIN or BEYOND if there is none.
+ * first: radius of the first crossing of the plane; 0 if the ray is captured before it, INFINITY if it escapes. */
 struct place {
     struct kd_disk_end seen;
     double first;
@@ -83,8 +83,8 @@ static void add(const struct column *column, const struct kd_disk_end *x, const 
     column->c->add(column->c->user, &cell);
 }
 
-/* True if two places are on the same face, are on the same side of the split, and have radii that differ by no more
- * than a step of ln r. */
+/* True if two places are on the same face of the disk and on the same side of the split, and ln r differs by at most a
+ * step between them. */
 static bool close_to(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y)
 {
     const double split = column->c->split;
@@ -115,8 +115,8 @@ static void divide(const struct column *column, const struct kd_disk_end *x, con
     divide(column, &middle, y, depth + 1);
 }
 
-/* The place between two others at which the first crossing is nearest to the hole. At the end of a ring this place is
- * on the ring. */
+/* The place between two others whose ray crosses the plane first at the smallest radius. At the alpha of a ring's end
+ * this place is on the ring. */
 static struct place nearest(const struct column *column, double low, double high)
 {
     double x = high - SHORTER * (high - low), y = low + SHORTER * (high - low);

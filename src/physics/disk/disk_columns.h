@@ -27,7 +27,7 @@ struct kd_disk_cell {
 
 struct kd_disk_columns {
     double inner, outer;
-    double split; /* a radius at which cells must end; 0 if there is none */
+    double split; /* a radius at which cells must end; 0 for no such radius */
     int columns;  /* number of columns in each of the three parts of the image */
     double step;  /* largest change of ln r within a cell */
     void (*add)(void *user, const struct kd_disk_cell *cell);

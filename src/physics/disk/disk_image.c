@@ -19,7 +19,7 @@ enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 /* relative error of a slope: this much if only the slope of flat space is known; otherwise this fraction of the error
  * of the extrapolation from the preceding rings */
 #define DRIFTS 0.2
-#define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
+#define FLATTEST 0.1  /* every slope that occurs is between this number and its inverse */
 #define MOVED 0.3     /* largest correction of a guess of R by the errors of the guesses at the preceding angles */
 enum { HISTORY = 5 }; /* number of preceding rings from which the slope at a ring is computed */
 
@@ -67,8 +67,8 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* The slope d ln r/d ln R at the starting point of a search. Its relative error is `drift`, plus `bend` times the error
- * of ln r at that point. */
+/* The slope d ln r/d ln R at the starting point of a search. drift, bend: the slope's relative error is drift + bend
+ * times the error of ln r at that point. */
 struct slope { double value, drift, bend; };
 
 /* Finds the ln R for which the ray meets the plane at r: it solves ln(r_0/r) = 0, where r_0 is the radius at which the
@@ -149,13 +149,13 @@ static double slope_at(const struct ellipse *e, const struct ellipse *growth, co
 /* State while ring k of the nodes is made from the preceding rings. */
 struct making {
     int k;
-    double r, rate; /* radius of the ring; dk/d ln r there */
+    double r, rate; /* r: radius of the ring. rate: dk/d ln r there */
     struct ellipse e, growth;
     double guessed[KD_DISK_IMAGE_ANGLES];
 };
 
-/* Weights for the derivative at the last of several nodes, by backward differences. The weight of the last node comes
- * first. The derivative is the sum of nabla^m/m for m from 1 to the order. */
+/* Weights that give the derivative at the last of several nodes. The weight of the last node comes first. They follow
+ * from backward differences: the derivative is the sum of nabla^m/m for m from 1 to the order. */
 static const double backward[HISTORY][HISTORY + 1] = {
     { 1, -1 },
     { 1.5, -2, 0.5 },
@@ -164,8 +164,8 @@ static const double backward[HISTORY][HISTORY + 1] = {
     { 137. / 60, -5, 5, -10. / 3, 1.25, -0.2 },
 };
 
-/* Errors of the guesses from the preceding rings. next: the error extrapolated to the present angle. last: errors at
- * the last three angles, the latest first. */
+/* Errors of the guesses that were extrapolated from preceding rings. next: error expected at the present angle. last:
+ * errors at the last three angles, the latest first. */
 struct miss { double next, last[3]; };
 
 static struct slope slope_of(const struct kd_disk_image *image, const struct making *m, int j,
@@ -244,7 +244,7 @@ static void weigh(double x, double weight[POINTS])
     }
 }
 
-/* Values of R at the angles of the nodes, for a ring between rings of nodes. */
+/* Values of R at the nodes' angles, for a ring between two rings of the table. */
 static void between_rings(const struct kd_disk_image *image, double r, int skip, double *row)
 {
     double at = node_of_radius(image, r) / skip, weight[POINTS];

@@ -29,10 +29,10 @@ enum {
 
 struct kd_disk_image {
     struct kd_hole hole;
-    /* of the inclination; cos_i >= 0, because the disk looks the same from below as from above */
+    /* cosine and sine of the inclination; cos_i >= 0, because the disk looks the same from below as from above */
     double cos_i, sin_i;
     double isco, horizon, origin;
-    /* number of nodes round a ring: 64 to 512, more towards edge-on; 0 if there is no table */
+    /* number of nodes round a ring: from 64 to 512 near edge-on; 0 if there is no table */
     int angles;
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* cosine and sine of chi for each node */
     /* R at the nodes. Row 0 is the ring at infinity, and the last row is the ISCO. */

@@ -125,8 +125,8 @@ static void add_columns(const struct kd_disk_image *image, const struct kd_disk_
                                                        .user = &user });
 }
 
-/* Resolution of an integral: it has `coarse` times fewer points than the finest one, and uses every `skip`th node of
- * the table. */
+/* Resolution of an integral. coarse: the finest integral has this many times more points. skip: every `skip`th node of
+ * the table is used. */
 struct looks { int coarse, skip; };
 
 static void integrate(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *p, struct looks looks,
@@ -167,8 +167,8 @@ void kd_disk_places(const struct kd_disk_image *image, double inner, double oute
 }
 
 /* The error of a sum. It is estimated from two coarser sums, because two sums alone may agree by chance. One coarser
- * sum has half as many points. The other uses every second node of the table or, next to edge-on, a quarter as many
- * points. */
+ * sum has half as many points. The other uses every second node of the table; next to edge-on it has a quarter as many
+ * points instead. */
 static double told(const struct kd_disk_image *image, double flux, double other, double rough)
 {
     const double here = fabs(other - flux), before = fabs(rough - other);

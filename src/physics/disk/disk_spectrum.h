@@ -20,7 +20,8 @@ struct kd_disk_spectrum_params {
     double mass_msun, distance_pc, mdot_edd; /* mdot_edd: accretion rate as in thin_disk.h */
     double colour_correction;
     enum kd_limb limb; /* law of limb darkening, normalised so that a face radiates F: Int limb mu dmu = 1/2 */
-    /* table that gives F, for the same hole and limb; NULL if F is Page & Thorne's flux */
+    /* table of a disk with returning light that gives F, for the same hole and limb; NULL if F is Page & Thorne's flux
+     * */
     const struct kd_returning *returning;
 };
 

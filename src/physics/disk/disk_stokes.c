@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define STEP 0.02   /* step of ln T between nodes */
-#define COLDEST -10 /* ln T of node 0, with T in units of the disk's largest temperature */
+#define COLDEST -10 /* ln T of node 0, where T is relative to the disk's largest temperature */
 enum {
     RINGS = 24,   /* number of nodes in s = sqrt(r_isco/r) at which reflected light is computed */
     COSINES = 12, /* number of nodes in the cosine of the angle at which reflected light leaves */
@@ -76,7 +76,7 @@ struct mirror {
     double largest; /* largest flux from the disk */
     double mu[COSINES];
     struct kd_scattering_functions at[COSINES];
-    double (*parts)[PARTS][KD_STOKES_NODES]; /* array that is being filled, for one ring */
+    double (*parts)[PARTS][KD_STOKES_NODES]; /* array of one ring that is being filled */
     double r;
 };
 
@@ -155,8 +155,9 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
         kd_scattering_reflect(&m->at[j], m->mu[j], &in, mu0, stokes, &out);
         const double *const all[3] = { out.l, out.r, out.u };
         /* Converts the series in the difference of azimuths to a series in the azimuth of the outgoing light. Terms in
-         * the first multiple of the azimuth are proportional to the sine of the angle from the normal. They are divided
-         * by this sine here, so that they are smooth in the cosine; add_place multiplies them by it. */
+         * the first multiple of the azimuth are proportional to the sine of the angle from the normal. Here they are
+         * divided by this sine, so that they are smooth functions of the cosine; add_place multiplies them by the sine.
+         * */
         const double level = sqrt((1 - m->mu[j]) * (1 + m->mu[j]));
         for (int k = 0; k < 3; k++) {
             const double *f = all[k], turned[5] = { f[0], (f[1] * c - f[2] * s) / level, (f[1] * s + f[2] * c) / level,
@@ -190,8 +191,8 @@ struct work {
     struct mirror mirror;
     bool scattered;
     double nodes[RINGS];
-    double (*rings)[COSINES][PARTS][KD_STOKES_NODES]; /* r^3 times the parts, at the nodes in s */
-    double (*ring)[PARTS][KD_STOKES_NODES];           /* the parts at the radius `ring_at` */
+    double (*rings)[COSINES][PARTS][KD_STOKES_NODES]; /* reflected light at the nodes in s: r^3 times the parts */
+    double (*ring)[PARTS][KD_STOKES_NODES];           /* reflected light at the radius `ring_at`: the parts */
     double ring_at;
     int first, last; /* first and last node of ln T with light */
 };

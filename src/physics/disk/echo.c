@@ -14,15 +14,15 @@ enum {
     FINER = 2,
 };
 
-/* A point of the disk as the observer sees it. g: energy divided by E0. time: t_2. light: photons per area of the image
- * for epsilon = 1. */
+/* A point of the disk as the observer sees it. g: energy divided by E0. time: t_2 of echo.h. light: photons per area of
+ * the image for epsilon = 1. */
 struct point { double alpha, beta, g, time, light; };
 
 struct view {
     struct kd_corona corona;
     struct point (*points)[AROUND]; /* light at each of RINGS + 1 rings */
     double log_epsilon[RINGS + 1];
-    double *part, *time; /* parts of the corona's light and their times, by ring and angle */
+    double *part, *time; /* the corona's light: its parts and their times, by ring and angle */
 };
 
 static void finish(struct view *view)
@@ -107,7 +107,7 @@ static double at(double x0, double x1, double y0, double y1, double across, doub
 #define AT(member, across, along) \
     at(c->in[0]->member, c->in[1]->member, c->out[0]->member, c->out[1]->member, across, along)
 
-/* Half of the range of a member, taken as linear, within a part of the cell. */
+/* Half the range of a member's values within a part of the cell, where the member is taken as linear. */
 #define REACH(member) \
     (0.5 / FINER * \
      (fabs(AT(member, across, 1) - AT(member, across, 0)) + fabs(AT(member, 1, along) - AT(member, 0, along))))
@@ -126,7 +126,7 @@ struct sum {
     const double *edges;
     double first, step;
     size_t bins, times;
-    /* in: the sums. steps: differences of `row` from one time to the next; it has times + 1 entries */
+    /* in: light in each bin. steps: changes of `row` from one bin of time to the next, times + 1 entries */
     double *in, *row, *steps;
 };
 
@@ -143,7 +143,7 @@ static size_t first_bin(const double *edges, size_t n, double x)
     return low;
 }
 
-/* Share of the range from `low` to `high` that lies in bin i. */
+/* Fraction of the range from `low` to `high` that is in bin i. */
 static double overlap(double low, double high, const double *edges, size_t i)
 {
     if (high <= low)
@@ -151,7 +151,7 @@ static double overlap(double low, double high, const double *edges, size_t i)
     return fmax(0, fmin(high, edges[i + 1]) - fmax(low, edges[i])) / (high - low);
 }
 
-/* Bins that a range overlaps: from `first` to end - 1. */
+/* The bins that a range overlaps: from `first` to end - 1. */
 struct touched { size_t first, end; };
 
 /* Spreads light evenly over the time between `from` and `to`. Returns the bins of time that this range overlaps. */
@@ -191,7 +191,7 @@ static void add_part(const struct view *view, const struct cell *c, size_t ring,
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    /* starts with the last angle as the predecessor of the first one */
+    /* the angles are periodic, so the angle before the first one is the last one */
     for (size_t k = n > 1 ? 0 : 1; k <= n; k++) {
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),
@@ -297,7 +297,7 @@ done:
     return status;
 }
 
-/* Light of the corona at a ring. mean: mean of t_1. of: mean of exp(2 pi i f (t_1 - mean)) at each frequency f. */
+/* Light of the corona at a ring. mean: mean of t_1. of: mean of exp(2 pi i f (t_1 - mean)) for each frequency f. */
 struct beat { double log_epsilon, mean, *of; /* real and imaginary part for each frequency */ };
 
 static void fill_beat(const struct view *view, size_t i, const double *frequencies, size_t n, struct beat *beat)

@@ -8,7 +8,7 @@
 /* Table of the scattered light, with nodes in the fourth root of mu. In this variable the term mu ln(mu) of the H
  * functions is smooth enough for cubic interpolation. */
 enum { CELLS = 160 };
-/* values from one step below 0 to one step above 1, which interpolation in the cells at the ends needs */
+/* values from one step below 0 to one step above 1: interpolation in the first and last cell needs one node outside */
 static double table[CELLS + 3];
 static pthread_once_t made = PTHREAD_ONCE_INIT;
 

@@ -27,7 +27,7 @@ enum {
     COLUMNS = 256 /* number of the finest columns in each part of the image */
 };
 
-/* The light that the disk receives, for the emissivities that depend on it. */
+/* The light that the disk receives, on which some emissivities depend. */
 struct received {
     struct kd_lamppost lamp;
     struct kd_corona_light corona;
@@ -62,8 +62,8 @@ struct strip {
 
 struct sum {
     const double *edges;
-    /* last: index of the bin that last received light. A search starts there, because neighbouring cells have
-     * similar energies */
+    /* last: index of the bin that last received light. The search for a bin starts there, because neighbouring cells
+     * have similar energies */
     int bins, last;
     double *in; /* light in each bin */
     double total;
@@ -191,8 +191,8 @@ struct work {
     struct strip strip;
 };
 
-/* Resolution of an integral: it has `coarse` times fewer rings and angles than the finest one, and uses every `skip`th
- * node of the table. */
+/* Resolution of an integral. coarse: the finest integral has this many times more rings and angles. skip: every
+ * `skip`th node of the table is used. */
 struct looks { int coarse, skip; };
 
 /* Adds the rings from p->inner to p->outer, between which the emissivity must have no break. */
@@ -232,8 +232,8 @@ struct by_columns {
     };
 };
 
-/* g beside the middle of a cell. part: distance from the middle, as a fraction of the cell's width. Radii are limited
- * to the disk's edges. */
+/* g beside the middle of a cell. part: distance from the middle, as a fraction of the cell's width. The radius is kept
+ * within the disk's edges. */
 static double beside(const struct by_columns *u, const struct kd_disk_cell *cell, double part)
 {
     const double aside = part * cell->width,
@@ -276,8 +276,8 @@ static void add_columns(const struct kd_disk_image *image, const struct kd_line_
                                                 COLUMNS / coarse, WIDEST * sqrt(coarse), add_column_cell, &user });
 }
 
-/* Integrates with a ring at the break of the emissivity; otherwise the error would depend on the position of the break
- * within a cell. */
+/* Integrates with a ring at the break of the emissivity. Otherwise the break would be inside a cell, and the error
+ * would depend on its position there. */
 static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p,
                       const struct received *received, struct looks looks, struct work *work, struct sum *s)
 {
@@ -299,9 +299,9 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
  * error estimate needs many. If two sums are compared at a few edges only, they may agree there by chance. */
 struct edges {
     double *at;
-    int n, bins;       /* number of requested edges; number of bins of the sums */
+    int n, bins;       /* n: number of requested edges. bins: number of bins of the sums */
     const double *own; /* the requested edges */
-    int first;         /* index for which at[first] is own[0] */
+    int first;         /* index of the first requested edge: at[first] is own[0] */
 };
 
 /* Approximate range of energies of the line, from a few rings in a few directions. */
@@ -394,10 +394,10 @@ static void gather(const struct edges *edges, const struct sum *s, double *share
             share[i] += s->in[at] / s->total;
 }
 
-enum { LEVELS = 5 }; /* number of sums, which have 16, 8, 4, 2 and 1 times fewer rings and angles */
+enum { LEVELS = 5 }; /* number of sums; they have 16, 8, 4, 2 and 1 times fewer rings and angles than the finest */
 
 /* Computes finer and finer sums until the error is within the tolerance or no finer sum exists. At least three sums are
- * computed. The last one, sums[*n], is the answer. Returns the estimated error.
+ * computed. The answer is the last sum, sums[*n]. Returns the estimated error.
  *
  * The error due to the cells decreases as the square of their size. So halving the cells changes the sum by three times
  * the remaining error. For safety three quarters of the change are reported as the error. Near edge-on, where this does

@@ -26,7 +26,7 @@ enum kd_line_emissivity { KD_LINE_POWER, KD_LINE_BROKEN, KD_LINE_LAMPPOST, KD_LI
 struct kd_line_params {
     double inner, outer;
     enum kd_line_emissivity emissivity;
-    double index;                /* for POWER and BROKEN: epsilon = r^-index; for BROKEN only up to break_r */
+    double index;                /* for POWER and BROKEN: epsilon = r^-index (for BROKEN, up to break_r) */
     double outer_index, break_r; /* for BROKEN, beyond break_r: epsilon ~ r^-outer_index, continuous at break_r */
     /* For LAMPPOST: epsilon is proportional to the light that the disk receives from a lamp at `height`. For RING, DISK
      * and SLAB: epsilon is proportional to the light that it receives from the corona. */
@@ -43,8 +43,8 @@ struct kd_line_profile {
     /* The sum over all energies, in units of epsilon M^2. It is extrapolated from the last two sums, of which the
      * second has twice the resolution of the first. */
     double total;
-    /* Largest error of the cumulative share at an edge. It is estimated from the change with half as many rings, angles
-     * and nodes of the table. */
+    /* Largest error of the cumulative share at an edge. It is estimated from the change of the share when rings, angles
+     * and nodes of the table are halved in number. */
     double error;
 };
 

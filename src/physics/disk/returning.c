@@ -43,8 +43,8 @@ static struct ring ring_of(const struct kd_hole *hole, double r)
                            .girth = sqrt(m.area / m.sigma) };
 }
 
-/* Light whose energy is 1 in the frame of zero angular momentum. energy, momentum, polar: E, L and |p_theta|. seen:
- * energy of the light in the gas's frame. */
+/* A photon whose energy is 1 in the frame of zero angular momentum. energy, momentum, polar: E, L and |p_theta|. seen:
+ * energy in the gas's frame. */
 struct light { double energy, momentum, polar, seen; };
 
 static struct light light_of(const struct ring *o, double sin_rho, double cos_chi)
@@ -116,8 +116,8 @@ static double edge(const struct kd_hole *hole, const struct ring *o, double cos_
     return x;
 }
 
-/* Parts of the sky along one chi, as ranges of x. The disk is seen in order n from in[n] to out[n], which is less than
- * in[n - 1]. Light between out[n] and in[n - 1] escapes, and light below in[orders - 1] falls in. The second order
+/* Parts of the sky along one chi, as ranges of x. In order n the disk is seen from x = in[n] to x = out[n] < in[n - 1].
+ * Light with x between out[n] and in[n - 1] escapes, and light with x below in[orders - 1] falls in. The second order
  * exists where a ray can pass between the ISCO and the hole. */
 struct parts {
     int orders;
@@ -139,7 +139,7 @@ static struct parts parts_of(const struct kd_hole *hole, const struct ring *o, d
     return parts;
 }
 
-/* Gauss points on (0, 1) and their weights. side: points in chi. depth: points along one chi. */
+/* Gauss points on (0, 1) and their weights. side: for the integral over chi. depth: for the integral along one chi. */
 struct rule { double side[SIDES], side_weight[SIDES], depth[DEPTH], depth_weight[DEPTH]; };
 
 static struct rule rule_of(void)
@@ -164,7 +164,7 @@ static double beyond(const struct kd_hole *hole, const struct ring *o, double is
 struct sky {
     int panels;
     double ends[PANELS + 1];
-    struct parts parts; /* parts of the sky for the chi that was computed last */
+    struct parts parts; /* parts of the sky for the chi that was processed last */
 };
 
 static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, double isco)
@@ -235,7 +235,8 @@ static double point_of(const struct strip *s, const struct rule *rule, int k, do
 
 static double emitted(enum kd_limb limb, double mu) { return kd_limb_at(limb, mu) * kd_limb_scale(limb) / M_PI; }
 
-/* Adds the light that a ring sends into a strip of its sky: shares of its photons, and of their energy at infinity. */
+/* Adds the light that a ring sends into a strip of its sky: the strip's shares of the photons, and of their energy at
+ * infinity. */
 static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule *rule, struct strip strip,
                       double *photons, double *energy)
 {
@@ -347,9 +348,9 @@ static double at_nodes(const double *nodes, const double *values, double s)
 /* Light that the rings receive, times r^3. flux, deficit, energy: light from gas that emits no returned light. flux_of,
  * deficit_of: matrices that give F_ret and L F_ret - l for light that is described by `more`. */
 struct kernel {
-    double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; and energy at infinity */
+    double flux[N], deficit[N], energy[N]; /* at each ring, times r^3: F_ret, L F_ret - l, and energy at infinity */
     double flux_of[N][N], deficit_of[N][N];
-    double stress_of[N][N]; /* matrix that gives r^3 F_t from the deficits */
+    double stress_of[N][N]; /* matrix that gives r^3 F_t from the deficits L F_ret - l */
 };
 
 static void receive(struct kd_returning *table, struct kernel *kernel, int i, const struct ring *o,

@@ -53,8 +53,8 @@ struct kd_returning_ray {
     double energy, momentum, polar;
     /* number of crossings of the plane within the ISCO; if it is odd, the ray leaves from the lower face */
     int order;
-    int leaves, arrives; /* signs of p^r where the ray leaves the disk, and where it arrives */
-    double solid;        /* the ray's share of the integral of mu dOmega in this frame */
+    int leaves, arrives; /* sign of p^r where the ray leaves the disk; sign of p^r where it arrives */
+    double solid;        /* the ray's share of the integral of mu dOmega, in the frame of zero angular momentum */
 };
 
 /* Calls each(user, ray) for the rays of the integral over a ring's sky. Rays with E < 1e-3 are left out. Among them are
@@ -78,13 +78,13 @@ struct kd_returning {
     struct kd_returning_shares first;
     /* shares of the same luminosity, by the final destination of the light; `returns` is 0 */
     struct kd_returning_shares lastly;
-    double hottest, largest; /* radius of the largest F; the largest F, divided by Mdot */
+    double hottest, largest; /* hottest: radius at which F is largest. largest: F/Mdot there */
     /* Matrices for kd_reflection_init. Both give r^3 Int g^5 F T/pi f(mu_e) mu dOmega at the nodes, where F and T are
      * the flux and the temperature of the light that rings emit. warmth_of is multiplied by r^(15/4) F T at the nodes,
      * and echo_of by r^3 F T. */
     double warmth_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS], echo_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS];
-    /* largest relative error of two numbers that should be 1: energy that arrives divided by energy that returns,
-     * and the sum of `lastly` */
+    /* largest deviation from 1 of two numbers: energy that arrives divided by energy that returns, and the sum of
+     * `lastly` */
     double error;
     int steps; /* number of iterations until the change is below 1e-12 */
 };
@@ -115,8 +115,8 @@ struct kd_returning_shares kd_returning_shares_at(const struct kd_returning *tab
  *
  *   T_c(r) F_ret(r) = Int g^5 (F_th T_th + F_r T_c)/pi f(mu_e) mu dOmega      F_th = F - F_r,  F_r = A F_ret
  *
- * Where F_th would be negative, F_th is 0 and F_r is F. This happens next to the ISCO for A near 1, where returning
- * light takes away more angular momentum than the gas has to lose. */
+ * Where this F_th would be negative, F_th is 0 and F_r is F. This happens next to the ISCO for A near 1, where
+ * returning light takes away more angular momentum than the gas has to lose. */
 struct kd_reflection {
     double albedo;
     double warm[KD_RETURNING_RINGS]; /* T_c at the nodes; its unit is such that F/Mdot = T^4 */

@@ -49,7 +49,7 @@ struct kd_synchrotron_kappa kd_synchrotron_kappa(double kappa)
 
 struct kd_synchrotron_kappa_polarised kd_synchrotron_kappa_polarised(double kappa)
 {
-    const double deep = pow(3 / kappa, 4.75) + 0.6; /* the exponent s of the laws' smooth joint, for I */
+    const double deep = pow(3 / kappa, 4.75) + 0.6; /* for I: the exponent s by which the two laws are joined */
     return (struct kd_synchrotron_kappa_polarised) {
         .light_q_high = log2(0.64 + kappa / 50),
         .light_q_sharp = 3.7 * pow(kappa, -1.6),

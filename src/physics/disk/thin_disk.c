@@ -30,7 +30,7 @@ static double log_term(double a, double x, double x0, double root, double other1
  * with 2ry - 4s sigma = (2y (y (s + a) - sigma) - 4sn)/(s + a) for a > 0, where it cancels next to r = 1. */
 struct charged {
     const struct kd_hole *hole;
-    /* y0, s0: values at the ISCO. gap: distance of s0 from the photon orbit. turns: ln(1 + (s - s0)/gap) */
+    /* y0, s0: y and s at the ISCO. gap: distance of s0 from the s of the photon orbit. turns: ln(1 + (s - s0)/gap) */
     double y0, s0, gap, turns;
     double c[6];
 };
@@ -177,8 +177,8 @@ double kd_disk_peak_page_thorne(const struct kd_hole *hole)
         return charged_peak(hole);
     double x0 = sqrt(kd_kerr_isco(hole));
     struct rise r = { .a = hole->a, .y0 = x0 - 1, .gap = x0 - sqrt(kd_kerr_photon_orbit(hole)) };
-    /* The search covers radii up to about 2.1 r_isco, where the maximum lies for all spins; for an extremal hole it is
-     * at the ISCO. */
+    /* The search covers radii up to about 2.1 r_isco. For all spins the maximum is in this range; for an extremal hole
+     * it is at the ISCO. */
     double x = x0 + kd_root(growth, &r, 1e-7 * x0, 0.5 * x0);
     return x * x;
 }

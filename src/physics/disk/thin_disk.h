@@ -36,9 +36,9 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda);
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards);
 
 /* Conversions to SI units. The mass is in solar masses, and the accretion rate in units of L_Edd / (efficiency(a) c^2),
- * with L_Edd = 4 pi G M m_p c / sigma_T. The three functions convert, in this order, the rate to kg/s; a flux F/Mdot
- * (as above) to W/m^2; and a flux to its effective temperature in K, by sigma T^4 = F. Constants are those of
- * physics/math/constants.h. */
+ * with L_Edd = 4 pi G M m_p c / sigma_T. The first function converts the rate to kg/s. The second converts a flux
+ * F/Mdot (as above) to W/m^2. The third converts a flux to its effective temperature in K, by sigma T^4 = F. Constants
+ * are those of physics/math/constants.h. */
 double kd_disk_rate(const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_flux_si(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_temperature(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);

@@ -6,10 +6,10 @@
 #include "physics/spacetime/hole.h"
 
 struct kd_torus {
-    double l;        /* l, which is u^t u_phi of the circular orbit at the largest pressure */
+    double l;        /* the torus's l: u^t u_phi of the circular orbit at the largest pressure */
     double edge;     /* constant that is subtracted from ln h so that ln h is 0 at the inner edge */
     double log_most; /* ln h at the largest pressure */
-    double outer;    /* outer edge in the plane, M; INFINITY if the torus has no outer edge */
+    double outer;    /* radius of the outer edge in the plane, M; INFINITY if there is no outer edge */
     double height;   /* largest |cos(theta)| of a place inside the torus */
 };
 

@@ -32,11 +32,11 @@ static double off(const void *user, double beta)
     return (isfinite(r) ? r : 1e300) - s->r;
 }
 
-/* Distance, upwards and downwards, up to which the line is searched. There the visible radius exceeds the ring's. */
+/* The line is searched upwards and downwards to this distance, where the visible radius exceeds the ring's. */
 static double reach(const struct line *s) { return 2 * s->r + 20; }
 
-/* The beta of the smallest visible radius. If below_is_enough is true, it may be any beta whose radius is below the
- * ring's. */
+/* The beta at which the visible radius is smallest. If below_is_enough is true, any beta with a visible radius below
+ * the ring's is accepted. */
 static double least(const struct line *s, bool below_is_enough)
 {
     double low = -reach(s), high = reach(s), a = high - SHORTER * (high - low), b = low + SHORTER * (high - low),

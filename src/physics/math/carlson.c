@@ -27,7 +27,7 @@ static double duplicate(struct kd_carlson_arg *s)
     return g;
 }
 
-/* x, y + z and y z, in which only symmetric functions of y and z occur. */
+/* The arguments x, y and z as x, y + z and y z, because only symmetric functions of y and z occur. */
 struct plain { double x, sum, product; };
 
 static struct plain plain_of(const struct kd_carlson_arg *s)
@@ -62,7 +62,7 @@ double kd_carlson_rf_arg(struct kd_carlson_arg s)
 /* R_C(1, 1 + e) for e > -1. */
 static double rc_unit(double e)
 {
-    if (fabs(e) < 0.02) { /* uses the series, the sum of (-e)^k / (2k + 1) */
+    if (fabs(e) < 0.02) { /* near e = 0: the series, which is the sum of (-e)^k / (2k + 1) */
         double sum = 0;
         for (int k = 9; k >= 0; k--)
             sum = 1.0 / (2 * k + 1) - e * sum;
@@ -176,7 +176,8 @@ static double series_slope(double x, double y_z, double yz, double p, double q)
 }
 
 /* A step of duplication of R_J adds 6 scale R_C(1, 1 + e)/d for p. Here it adds the divided difference of this term
- * between p and q. It follows from the divided differences of d, of delta = (p - x)(p - y)(p - z) and of e = delta/d^2.
+ * between p and q. That difference follows from the divided differences of d, of delta = (p - x)(p - y)(p - z) and of e
+ * = delta/d^2.
  */
 double kd_carlson_rj_slope(struct kd_carlson_arg s, double p, double q)
 {

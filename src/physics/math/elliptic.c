@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* An angle phi = turns pi + rest, with |rest| <= pi/2. s, c: sine and cosine of the rest. */
+/* An angle phi = turns pi + rest, with |rest| <= pi/2. s, c: sine and cosine of `rest`. */
 struct reduced { double turns, s, c; };
 
 static struct reduced reduce(double phi)

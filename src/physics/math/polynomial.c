@@ -65,7 +65,7 @@ int kd_polynomial_roots(const double *c, int degree, double low, double high, do
         n_turns = kd_polynomial_roots(slope, degree - 1, low, high, turns);
     turns[n_turns++] = high;
     double left = low;
-    bool touched = false; /* true if the left end is a root that was already counted */
+    bool touched = false; /* true if the left end of the interval is a root that has been counted */
     for (int i = 0; i < n_turns && n < degree; i++) {
         double right = turns[i], f_left = kd_polynomial_at(c, degree, left),
                f_right = kd_polynomial_at(c, degree, right);

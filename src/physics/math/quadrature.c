@@ -22,7 +22,7 @@ double kd_quadrature(kd_integrand f, const void *context)
         double more = 0;
         for (double t = step / 2; t <= reach; t += step)
             more += term(f, context, t) + term(f, context, -t);
-        /* difference of two rules, whose mean is the rule with half the step */
+        /* the difference of two rules; their mean is the rule with half the step */
         double change = more - sum;
         sum += more;
         step /= 2;

@@ -11,8 +11,8 @@ enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
-    /* right, up2, inwards: direction, with the square of `up`. energy: ratio of the energy at infinity to the
-     * measured energy */
+    /* right, inwards: components of the direction. up2: square of its component `up`. energy: ratio of the energy at
+     * infinity to the measured energy */
     double right, up2, inwards, energy;
     /* place relative to the centre, with the square of y; at a finite radius, components of the direction */
     double x, y2;
@@ -119,7 +119,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     }
     c.low = end(&c, c.shell.prograde);
     c.high = end(&c, c.shell.retrograde);
-    if (signbit(o->hole.a)) { /* a hole with a < 0 gives the mirror image: retrograde orbits appear on the left */
+    if (signbit(o->hole.a)) { /* for a < 0 the curve is mirrored: retrograde orbits appear on the left */
         double swap = c.low;
         c.low = c.high, c.high = swap;
     }
@@ -152,7 +152,7 @@ static struct place aim_at(const struct kd_critical *c, double angle)
         return see(c, c->high);
     struct aim aim = { c, cos(angle), sin(angle) };
     double at = angle == M_PI ? c->low : kd_root(miss, &aim, c->low, c->high);
-    if (isnan(at)) /* uses the end itself, because the angle is within rounding of it */
+    if (isnan(at)) /* returns the curve's end, because the angle differs from the end's by rounding only */
         at = angle < 1 ? c->high : c->low;
     return see(c, at);
 }
@@ -209,8 +209,8 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* A coordinate of places that spaces radii evenly: (ln y - ln y_P)/(a sin i). The next function is its inverse. If this
- * coordinate is small, it is w/(y_P sin i). */
+/* Converts a place to a coordinate in which radii are evenly spaced: (ln y - ln y_P)/(a sin i). Where it is small, it
+ * is w/(y_P sin i). The next function is the inverse. */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -235,8 +235,8 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
     return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
-/* Sums over the upper half of the curve, in which the ends have half the weight. Half the curve's width is subtracted
- * from rho, so that squares keep their digits. */
+/* Sums over the upper half of the curve. The two ends have half the weight of other points. Half the curve's width is
+ * subtracted from rho, so that squares keep their digits. */
 struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)

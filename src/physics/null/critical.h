@@ -29,7 +29,7 @@
  *   mean radius  R = (1/2 pi) Int rho d(angle) about (D, 0);
  *   asymmetry    A = 2 sqrt((1/2 pi) Int (rho - R)^2 d(angle));
  *   area         (1/2) Int rho^2 d(angle).
- * At a finite radius the same in angles; the area is then the solid angle, Int (1 - cos rho) d(angle).
+ * At a finite radius the measures are the same, in angles, and the area is the solid angle, Int (1 - cos rho) d(angle).
  *
  * Accuracy: alpha and beta are within some 1e-15 M of the exact curve. (The position along the curve is less accurate.
  * Where the curve is nearly straight, near a = 1, `orbit` loses digits, and only y = r - 1 is accurate.) */
@@ -43,10 +43,10 @@
 
 struct kd_critical_observer {
     struct kd_hole hole;
-    /* outside the horizon or, for a falling observer, outside the inner horizon; may be INFINITY */
+    /* radius of the observer, outside the horizon or, if it falls, outside the inner horizon; may be INFINITY */
     double radius;
-    double cos_theta;                 /* in [-1, 1]; 0, 1 and -1 may be exact */
-    double sin_theta;                 /* 0 if it is to be computed from cos_theta, as in null_geodesic.h */
+    double cos_theta;                 /* cos(theta) of the observer, in [-1, 1]; 0, 1 and -1 may be exact */
+    double sin_theta;                 /* sin(theta); 0 if it is to be computed from cos_theta (null_geodesic.h) */
     struct kd_observer_motion motion; /* motion of an observer at a finite radius; it must be possible at the place */
 };
 
@@ -67,9 +67,9 @@ struct kd_critical {
     struct kd_tetrad skew; /* for an observer that moves along theta: its own tetrad; otherwise not set */
     bool is_skew;
     double sine; /* sine of the observer's inclination */
-    /* places of the orbits at the left and at the right end, divided by `sine` unless that is 0 */
+    /* places of the orbits at the left and the right end, divided by `sine` unless `sine` is 0 */
     double low, high;
-    double left, right; /* positions of the left and right end: alpha, or the angle to the right of -e_r */
+    double left, right; /* alpha of each end; at a finite radius, angle to the right of -e_r */
     double centre;
 };
 
@@ -83,8 +83,8 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *observer);
 struct kd_critical_point {
     struct kd_shell_orbit orbit;
     double alpha, beta;
-    double angle, rho;         /* polar coordinates about the centre                 */
-    double right, up, inwards; /* direction, if the observer is at a finite radius; (0, 0, 1) at infinity */
+    double angle, rho;         /* polar coordinates of the point about the curve's centre                 */
+    double right, up, inwards; /* direction of the point, for an observer at a finite radius; (0, 0, 1) at infinity */
 };
 
 /* The point of the curve at `angle`, which may be any real number. Takes some two microseconds. */
@@ -96,8 +96,8 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double 
  * ends `up` is accurate to some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* A point of the upper half, as a smooth function of `along`. The results of kd_critical_upper have a kink as functions
- * of `along`. Here the radii of the orbits are a smooth function of `along`, because they are spaced by ln(r - 1). */
+/* Like kd_critical_upper, but the point is a smooth function of `along`, because the orbits are spaced evenly in ln(r -
+ * 1). The result of kd_critical_upper has a kink as a function of `along`. */
 struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
 
 /* Converts right, up and inwards of a point of kd_critical_upper, or of its mirror image, to those of an observer that

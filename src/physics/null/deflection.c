@@ -42,8 +42,7 @@ struct far {
  * closest approach is divided out. Then
  *   alpha = 2 Int_0^{pi/2} (phi'/sqrt(D) - 1) dpsi,   s = sin(psi),
  *   D = b^2 - a^2 - (b - a)^2 w0 (2 (s + 1/(1 + s)) - q^2 w0 (1 + s^2)).
- * When phi'^2 - D is written out, b^2 cancels. So there is no cancellation of terms as large as the pi of a straight
- * ray. */
+ * When phi'^2 - D is written out, b^2 cancels. So no terms as large as pi, the value for a straight ray, cancel. */
 static double far_bending(double x, double y, const void *context)
 {
     const struct far *f = context;
@@ -146,7 +145,7 @@ struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole)
     c.linear = cubic(&o) - 2 * c.quartic * c.w;
     c.w1 = (quadratic(&o) - c.quartic * c.w * c.w) / c.linear - 2 * c.w;
     c.rate = (b + drag(&o, c.w)) / sqrt(rest_of(&c, c.w));
-    double by_b = 2 * c.w * c.w * (b - kd_hole_mass_w(hole, c.w) * (b - o.a) * c.w); /* -d w'^2/db at w_c */
+    double by_b = 2 * c.w * c.w * (b - kd_hole_mass_w(hole, c.w) * (b - o.a) * c.w); /* -d(w'^2)/db at w = w_c */
     double e2 = b * by_b / rest_of(&c, c.w);
     double rest = kd_quadrature(regular, &c);
     return (struct kd_deflection_strong) { .rate = c.rate,

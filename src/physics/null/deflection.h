@@ -18,8 +18,8 @@ double kd_deflection_critical(const struct kd_hole *hole);
 /* Total deflection of a ray with b > kd_deflection_critical(a), including whole turns. NaN for smaller b (the ray is
  * captured), INFINITY if b equals the critical value to within rounding. Below b = 20 it uses the closed form
  * (null_radial.h), beyond it an integral without differences of nearly equal numbers. The relative error is below 1e-14
- * + 1e-15/(b/critical - 1), up to any b. The second term is the effect of the last digit of b; it is ten times larger
- * at a = 0.9999. */
+ * + 1e-15/(b/critical - 1), up to any b. The second term is due to rounding of b, and is ten times larger at a =
+ * 0.9999. */
 double kd_deflection(const struct kd_hole *hole, double b);
 
 /* Boyer-Lindquist r of the closest approach of the ray with the impact parameter b. */

@@ -19,7 +19,7 @@
  * plane could be counted as the first crossing. */
 #define CENTRE (1 - 1e-6)
 
-/* One ray's motion up to its n-th crossing. */
+/* The motion of one ray up to its n-th crossing. */
 struct ray {
     struct kd_null_radial radial;
     double crossing; /* Mino time of the crossing; NaN if the ray does not cross */
@@ -99,7 +99,7 @@ static double solve(kd_root_fn f, const struct search *q, double expected, doubl
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
     for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
-        if (i > 150) /* gives up at e^-600, as f has not changed its sign */
+        if (i > 150) /* gives up at d = e^-600, where f still has not changed its sign */
             return NAN;
     while (high < end && !(f(q, high) > 0))
         high = fmin(high + 2, end);
@@ -120,8 +120,8 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
     if (inside)
         return -exp(solve(late, &q, expected, log(CENTRE)));
     if (isfinite(source)) {
-        /* Limit of d up to which a ray meets the source twice, on its way in and on its way out. The farther out the
-         * ray is, the earlier it meets the source on its way in. */
+        /* Limit of d up to which a ray meets the source's radius twice, on its way in and on its way out. With larger d
+         * a ray meets this radius earlier on its way in. */
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);

@@ -12,7 +12,7 @@
 struct swing {
     double z, n, s, kappa;
     double full; /* L */
-    double at;   /* x of the observer, from -pi to pi */
+    double at;   /* x at the observer, from -pi to pi */
 };
 
 /* Positive nodes, and their weights, of Gauss-Legendre quadrature with ten points on [-1/2, 1/2] (A. N. Lowan et al.
@@ -49,7 +49,7 @@ static double time_to(const struct swing *w, double x)
     return s * kd_carlson_rf(c * c, (w->n + w->kappa * w->s * c * c) / w->s, 1) / sqrt(w->s);
 }
 
-/* Position x of the ray at Mino time tau, not reduced to a period. */
+/* The x of the ray at Mino time tau, not reduced to a period. */
 static double swung(const struct swing *w, double tau)
 {
     const double half = 2 * time_to(w, 0.5 * M_PI), away = fabs(w->at) > 0.5 * M_PI ? copysign(M_PI, w->at) : 0;

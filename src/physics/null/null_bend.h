@@ -1,6 +1,6 @@
 /* Deflection of an escaping ray, given as two angles. However often the ray goes round, across the axis or along the
- * equator, the two angles are smooth functions of the ray. So they can be interpolated from a few rays, unlike the
- * direction of escape. Double precision; pure; any thread.
+ * equator, the two angles are smooth functions of the ray. Unlike the direction of escape, they can therefore be
+ * interpolated from a few rays. Double precision; pure; any thread.
  *
  * The ray turns by the angle `turn` in a plane through the hole, and this plane is dragged about the axis by the angle
  * `drag`. At the start the plane is spanned by the direction o of the observer's place and the tangent t. The ray
@@ -23,8 +23,8 @@
 #include "physics/null/null_geodesic.h"
 
 struct kd_null_bend {
-    double turn, drag;     /* the two angles of the ray traced back, not reduced to a turn */
-    double t_theta, t_phi; /* components of the tangent, a unit vector */
+    double turn, drag;     /* turn and drag of the ray traced back, radians, not reduced to a turn */
+    double t_theta, t_phi; /* components of the tangent t, a unit vector */
 };
 
 /* Computes both angles. Returns false, and leaves *out undefined, if the ray does not escape, does not cross the

@@ -20,10 +20,10 @@ struct course {
     double sense;          /* sign of lambda, also defined if lambda is 0 */
     double psi;            /* azimuth so far, without frame dragging, not reduced to a turn */
     double last_x, last_y; /* components x and y of n at the last update */
-    double way;            /* 1 if the time follows the formula for the way in, -1 for the way out */
-    double ingoing;        /* in ingoing coordinates: sign of the energy; 0 in Boyer-Lindquist coordinates */
-    double edge;           /* value, at the start, of the part of the time that is not integrated */
-    double first;          /* places are recorded where 1/r is at least this */
+    double way;            /* s of the header's formula of the time: 1 on the way in, -1 on the way out */
+    double ingoing;        /* sign of the energy if coordinates are ingoing; 0 if they are Boyer-Lindquist's */
+    double edge;           /* value at the start of the part of the time that is a closed form instead of an integral */
+    double first;          /* least 1/r at which places are recorded */
     struct state now;
     double mino;
     int order;
@@ -84,7 +84,7 @@ static struct state step(const struct course *c, const struct state *s, double h
     return o;
 }
 
-/* The part of the time that is not integrated, at a state. It is 0 at infinity, because r_o + 2 ln r_o is left out. */
+/* The part of the time that has a closed form, at a state. It is 0 at infinity, because r_o + 2 ln r_o is left out. */
 static double edge(const struct course *c, const struct state *s)
 {
     const double w = s->y[W], dw = s->y[DW];
@@ -128,7 +128,7 @@ static void turn(struct course *c, const struct state *s)
     c->last_y = y;
 }
 
-/* Changes the formula of the time to that of the other direction, if the ray has passed a turning point. */
+/* After a turning point, changes to the formula of the time for the other direction. */
 static void take_way(struct course *c, struct state *s)
 {
     const double way = s->y[DW] < 0 ? -1 : 1, before = edge(c, s);
@@ -243,7 +243,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* side of the plane on which the ray counts from here on, regardless of rounding of u */
+    /* from here on the ray counts as being on this side of the plane, regardless of rounding of u */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);
@@ -251,7 +251,7 @@ static bool go(struct course *c, double h)
     return room;
 }
 
-/* True if the ray is next to the horizon and about to enter it, or about to reach the past horizon from within. */
+/* True if the ray is next to the horizon and is about to enter it, or to reach the past horizon from within. */
 static bool is_captured(const struct course *c, double near)
 {
     const double w = c->now.y[W], dw = c->now.y[DW];

@@ -1,6 +1,6 @@
 /* Course of a null geodesic of Kerr as a list of places, for drawing. The course is integrated in steps of Mino time,
  * in double precision. This code shares no formula of the motion with the closed form of null_geodesic.h, and must give
- * the same crossings. Units G = c = M = 1, E = 1. Pure functions, any thread.
+ * the same crossings as the closed form. Units G = c = M = 1, E = 1. Pure functions, any thread.
  *
  * With w = 1/r, and a unit vector n towards the direction (theta, psi), where psi is the azimuth without frame
  * dragging, the equations are
@@ -39,20 +39,21 @@ struct kd_null_place {
 };
 
 struct kd_null_course {
-    size_t n, steps; /* number of places; number of integrator steps, of which there are several between two places */
+    size_t n, steps; /* n: number of places. steps: number of integrator steps, several for each place */
     enum {
         KD_COURSE_NONE,
         KD_COURSE_CAPTURED,
         KD_COURSE_ESCAPED,
         KD_COURSE_LONG
-    } end;          /* NONE: there is no such ray. LONG: the ray has more places than `out` has room for */
+    } end;          /* NONE: no such ray exists. LONG: the ray has more places than `out` has room for */
     double least_r; /* smallest r over all places, including the turning point */
     double drift;   /* largest error of the first integrals, relative to their terms */
 };
 
-/* Computes the places of the ray traced back. They start at the observer, or where the ray comes within r = far. They
- * end beyond both `far` and the observer, or within `near` (M) of the horizon. Neighbouring places are at most 0.03 rad
- * apart in direction. Every crossing of the plane is among the places. out: memory for `most` places. */
+/* Computes the places of the ray traced back. The first place is the observer's or, if the observer is beyond r = far,
+ * where the ray comes within it. The last place is beyond both `far` and the observer, or within `near` (M) of the
+ * horizon. Neighbouring places are at most 0.03 rad apart in direction. Every crossing of the plane is among the
+ * places. out: memory for `most` places. */
 struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
                                         struct kd_null_place *out, size_t most);
 

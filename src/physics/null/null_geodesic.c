@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-/* One ray's motion, and the position of its start within the radial motion. */
+/* The motion of one ray, and where its start lies on the radial motion. */
 struct motion {
     struct kd_null_polar polar;
     struct kd_null_radial radial;
@@ -42,7 +42,7 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
-    if (m->radial.inner) /* for INNER motion, time counts from r3, which the ray passes at time 0 */
+    if (m->radial.inner) /* for INNER motion, Mino time counts from r3, which the ray passes at time 0 */
         return at < 0         ? sub((struct kd_null_radial_sum) { -m->begin, m->start.phi, m->start.t }, from)
                : m->begin < 0 ? add(m->start, from)
                               : sub(from, m->start);
@@ -83,10 +83,10 @@ static void disturb(const struct motion *m, double tau, struct kd_null_crossing 
     x->error_delay = passed * rate.t;
 }
 
-/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. This
- * rounding affects phi and t if dr/dtau is small, as near the photon sphere, or if phi' and t' are large, as at the
- * horizon. The integrals of phi and t belong to the Mino time of the rounded r. This time is known, so the integrals
- * are corrected by the difference. */
+/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. Its
+ * rounding changes phi and t noticeably if dr/dtau is small, as near the photon sphere, or if phi' and t' are large, as
+ * at the horizon. The integrals of phi and t belong to the Mino time of the rounded r. This Mino time is known, so the
+ * integrals are corrected by its difference from `tau`. */
 static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     const struct kd_null_radial *q = &m->radial;
@@ -238,7 +238,7 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
 /* Weight of rounding errors of a chain of operations, in units of the machine epsilon. It was calibrated with some 1e5
  * rays that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
  * exceeded it. Near maximal spin three roots lie close together at the horizon, which amplifies rounding by 1/(r+ -
- * r-). The slopes in alpha and beta do not contain this amplification, so it is added here. */
+ * r-). The slopes in alpha and beta do not include this factor, so it is added here. */
 static double weight_of(const struct kd_null_ray *ray) { return 8 + 2 / (ray->hole.outer - ray->hole.inner); }
 
 /* Estimates errors. Rounding is taken to disturb the labels, the answer itself, and r where phi and t diverge as ln(r -
@@ -263,7 +263,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     /* The step is short compared with the distance from the critical curve, and long compared with rounding. It leads
-     * away from that curve, so that the ray stays on the same side. */
+     * away from the curve, so that the displaced ray is on the same side of it. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)
         step = -step;

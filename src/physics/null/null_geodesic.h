@@ -7,9 +7,9 @@
  * Kapec & Lupsasca 2019, arXiv:1905.11406; Carlson 1995 and DLMF 19.29 (the integrals). The parts are null_quartic.h,
  * null_polar.h, null_radial.h, each with its own formulas.
  *
- * Accuracy: each crossing has `error_*`, estimated as the numerical derivatives of the answer in (alpha, beta) times
- * some ten times the machine epsilon. The true error is typically a twentieth of this estimate, and exceeds it for one
- * crossing in ten thousand. The relative error of r is 2e-16 in the median, and 1e-13 for 99 % of the crossings of
+ * Accuracy: each crossing has `error_*`, which is estimated from the numerical derivatives of the answer by alpha and
+ * beta, times some ten machine epsilons. The true error is typically a twentieth of this estimate, and exceeds it for
+ * one crossing in ten thousand. The relative error of r is 2e-16 in the median, and 1e-13 for 99 % of the crossings of
  * orders 0-3 within 8 M. phi and delay are similarly accurate, but less so near the horizon. At a distance of 1e-10
  * from the critical curve order 3 still has an error of 1e-11. At 1 - |a| = 1e-12 phi and delay lose up to six digits
  * because the horizons nearly meet. */
@@ -29,11 +29,12 @@ struct kd_null_ray {
     struct kd_hole hole;
     double radius;    /* radius of the observer; outside the horizon, or INFINITY */
     double cos_theta; /* cos(theta) of the observer, in [-1, 1]; 0, 1 and -1 may be exact */
-    /* 0 if it is to be computed from cos_theta. Within 1e-5 of the axis, cos_theta determines the sine only to 1e-6. */
+    /* sin(theta) of the observer; 0 if it is to be computed from cos_theta. Within 1e-5 of the axis, cos_theta
+     * determines the sine only to 1e-6. */
     double sin_theta;
     double alpha, beta;
-    /* for a finite radius: true if the traced ray starts outwards, that is, if the photon moves inwards when it
-     * arrives */
+    /* only for an observer at a finite radius: true if the traced ray starts outwards, that is, if the photon arrives
+     * moving inwards */
     bool outward;
     int orders; /* number of wanted crossings, at most KD_NULL_ORDERS */
 };
@@ -47,7 +48,7 @@ enum kd_null_status {
     KD_NULL_BAD_INPUT, /* an input is NaN, or outside the ranges above */
 };
 
-/* where the traced ray ends: in the past horizon, or at infinity */
+/* where the ray, traced back, ends: in the past horizon, or at infinity */
 enum kd_null_fate { KD_NULL_CAPTURED, KD_NULL_ESCAPED };
 
 /* A crossing of the equatorial plane. Crossings n = 0, 1, ... count back from the observer; a start in the plane does
@@ -83,7 +84,7 @@ struct kd_null_path {
 /* Traces a ray. If the status is not OK, IN_PLANE or CRITICAL, there are no crossings and no direction. */
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 
-/* kd_null_trace without the estimate of errors, which are set to 0. It takes a quarter to a third of the time of
+/* kd_null_trace without estimates of errors: all errors are set to 0. It takes a quarter to a third of the time of
  * kd_null_trace. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 

@@ -13,7 +13,7 @@ struct series { double w[ORDER + 1], u[ORDER + 1]; };
 struct ray {
     double a2, k3, c2, e2; /* A, 3K, -2D and 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
-    bool ours;             /* true if the ray does not come from another exterior region through the horizon */
+    bool ours;             /* true unless the ray comes from another exterior region through the horizon */
     double w, dw, u, du;
 };
 

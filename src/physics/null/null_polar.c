@@ -8,8 +8,8 @@
 /* A point of the motion: sin^2 x, cos^2 x and 1 - kappa sin^2 x, each without cancellation. */
 struct phase { double s2, c2, d2; };
 
-/* Integrals from the turning point, where u^2 = z, to the point `at`. Of the azimuth they contain only the regular
- * part. */
+/* Integrals from the turning point, where u^2 = z, to the point `at`. The azimuth's elementary part with the poles is
+ * left out. */
 static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct phase at)
 {
     struct kd_null_polar_sum sum = { 0 };
@@ -35,7 +35,7 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* Computes gap and weight from their product, which is (s beta)^2, and their difference, both of which are known. */
+/* Computes gap and weight. Their product, (s beta)^2, and their difference are known. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->hole.a * m->hole.a, s2 = m->s * m->s;
@@ -57,7 +57,7 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
     p->start.phi += angle;
     /* true if the ray moves towards the plane, by du/dtau = s beta */
     bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0);
-    if (p->u == 0) /* a start in the plane counts as the crossing before crossing 0 */
+    if (p->u == 0) /* a start in the plane does not count: it is the crossing before crossing 0 */
         toward = false;
     if (!toward) {
         p->start.tau = -p->start.tau, p->start.phi = -p->start.phi, p->start.u2 = -p->start.u2;
@@ -103,8 +103,8 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_nu
     return p;
 }
 
-/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which needs a third of the square roots that
- * duplication needs. */
+/* R_F(0, y, 1) by the arithmetic-geometric mean (DLMF 19.22.1), which takes a third as many square roots as
+ * duplication. */
 static double quarter_of(double y)
 {
     double a = 1, b = sqrt(y);

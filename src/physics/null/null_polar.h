@@ -39,7 +39,7 @@ struct kd_null_polar {
     bool vortical; /* true if eta < 0 */
     bool crosses;  /* true if the ray crosses the equatorial plane: eta > 0 and not `fixed` */
     enum kd_null_parts parts;
-    /* integrals from a turning point to the plane or, if vortical, to the other turning point */
+    /* integrals from a turning point of theta to the plane or, if vortical, to the other turning point */
     struct kd_null_polar_sum quarter;
     /* integrals from a turning point at z to the observer; negative if it is the next turning point instead of the
      * previous one */
@@ -47,18 +47,18 @@ struct kd_null_polar {
     double first, first_phi; /* Mino time and azimuth from the observer to the first crossing             */
 };
 
-/* Makes the polar motion of a ray. parts: with KD_NULL_TAU the integrals of azimuth and of u^2 are 0, and
- * kd_null_polar_at must not be called. With other values all integrals are computed. */
+/* Makes the polar motion of a ray. parts: if it is KD_NULL_TAU, the integrals of azimuth and of u^2 are 0, and
+ * kd_null_polar_at must not be called; otherwise all integrals are computed. */
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_null_parts parts);
 
-/* Numbers of the polar motion at the observer, each without cancellation. gap: z - u^2. weight: N + a^2 u^2. s: N + a^2
- * z. */
+/* Numbers of the polar motion at the observer, each computed without cancellation. gap: z - u^2. weight: N + a^2 u^2.
+ * s: N + a^2 z. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);
 
-/* The Mino time from the observer to the first crossing, without other results; INFINITY if there is no crossing. */
+/* Computes only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
-/* The Mino time from one crossing to the next, without other results; for eta > 0. */
+/* Computes only the Mino time from one crossing to the next. eta must be > 0. */
 double kd_null_polar_half(const struct kd_null_motion *m);
 
 /* Integrals from the observer to crossing n = 0, 1, ...; valid only if p->crosses. */

@@ -24,9 +24,9 @@ double kd_null_radial_potential(const struct kd_null_motion *m, double r)
     return r * (r * (r * r + m->quadratic) + 2 * m->k) + m->constant;
 }
 
-/* A root by Newton's method, of x^3 + b x^2 + c x + d or of the quartic x^4 + c x^2 + d x + e. It starts from `x`, and
- * stops when x no longer moves. From a suitable start it is monotone in exact arithmetic; a reversal therefore means
- * that x is within rounding of the root. */
+/* A root by Newton's method, of x^3 + b x^2 + c x + d or of the quartic x^4 + c x^2 + d x + e. The iteration starts
+ * from `x`, and stops when x no longer moves. From a suitable start x is monotone in exact arithmetic. A reversal
+ * therefore means that x is within rounding of the root. */
 static double newton(const double *k, int degree, double x)
 {
     double direction = 0;
@@ -45,13 +45,13 @@ static double newton(const double *k, int degree, double x)
     return x;
 }
 
-/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0: it is the least
- * of three roots, or the only one. A cubic that rises from a negative value is concave below its inflection point and
- * convex above. */
+/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0. r2 is the least
+ * of three real roots, or the only real root. A cubic that rises from a negative value is concave below its inflection
+ * point and convex above. */
 static double least_root(const double *k)
 {
     double inflection = -k[0] / 3, bend = inflection * inflection - k[1] / 3;
-    /* top: place of the local maximum, if there is one */
+    /* top: r of the cubic's local maximum, if there is one */
     double top = bend > 0 ? inflection - sqrt(bend) : inflection;
     double f = ((top + k[0]) * top + k[1]) * top + k[2];
     if (f >= 0)
@@ -65,7 +65,7 @@ static void finish(struct kd_null_roots *r, double product)
     if (r->pair == 0)
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
-    /* mean >= 0 because K >= 0. So r4 has no cancellation, and r3 follows from the product of both */
+    /* mean >= 0 because K >= 0. So r4 is computed without cancellation, and r3 follows from the product r3 r4 */
     if (r->pair >= 0) {
         r->r4 = r->mean + sqrt(r->pair);
         r->r3 = r->r4 > 0 ? product / r->r4 : 0;
@@ -95,7 +95,7 @@ static void two_pairs(struct kd_null_roots *r, const struct kd_null_motion *m)
     double skew = p > 0 ? b / p : sqrt(fmax(q * q - 4 * c, 0)), g = 0.5 * (q + p2 + skew);
     r->kind = KD_NULL_NO_REAL;
     r->mean = 0.5 * p;
-    r->pair = r->mean * r->mean - g; /* the right pair, r^2 - p r + g with p > 0 */
+    r->pair = r->mean * r->mean - g; /* the roots r3 and r4, from r^2 - p r + g with p > 0 */
     r->pair_left = r->mean * r->mean - c / g;
     r->margin = 1;
 }
@@ -133,7 +133,7 @@ struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion 
                                                     double dalpha, double dbeta)
 {
     const struct kd_hole *hole = &m->hole;
-    /* p, q: changes of alpha^2 and of beta^2 */
+    /* p: change of alpha^2; q: change of beta^2 */
     double p = dalpha * (2 * m->alpha + dalpha), q = dbeta * (2 * m->beta + dbeta);
     double k = p + q + 2 * hole->a * m->s * dalpha;
     return (struct kd_null_displacement) {
@@ -159,7 +159,7 @@ struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const 
             return kd_null_roots_of(m);
     }
     struct kd_null_roots o = { .mean = r + 0.5 * sum, .pair = 0.25 * sum * sum - product };
-    double both = o.mean * o.mean - o.pair; /* r1 and r2: r3 r4 and r1 r2 both = C; r1 + r2 = -2 mean */
+    double both = o.mean * o.mean - o.pair; /* r3 r4; r1 and r2 follow from r1 r2 both = C, r1 + r2 = -2 mean */
     o.r1 = -o.mean - sqrt(o.mean * o.mean - m->constant / both);
     o.r2 = m->constant == 0 ? 0 : m->constant / both / o.r1;
     finish(&o, both);

@@ -14,12 +14,12 @@ struct pole { double u2, s, q2; };
 /* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12, U13 + U14 and U13 U14 */
-    struct pole plus, minus;   /* arguments for the poles at r+ and r- */
-    struct pole slope;         /* divided differences of these arguments over r+ - r-, if the horizons are close */
+    struct pole plus, minus;   /* arguments of the pole integrals for r+ and for r- */
+    struct pole slope;         /* for close horizons: differences of both poles' arguments, over r+ - r- */
     double far;                /* U25^2 with the pole r5 at infinity */
     double log;                /* elementary part of the integral of (r - r2) dr/sqrt(R) */
     double ratio;              /* X1 Y1/(X2 Y2 U12)                                                      */
-    double edge;               /* difference of sqrt(R)/(r - r2) between the ends */
+    double edge;               /* difference of sqrt(R)/(r - r2) between the ends of the path */
 };
 
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius)
@@ -143,8 +143,8 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
     return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
 }
 
-/* Int dr/(Delta sqrt(R)). minus: the integral at_pole for r-. The result is the divided difference of at_pole over r+ -
- * r-. The divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). */
+/* Int dr/(Delta sqrt(R)). minus: the integral at_pole for r-. The result is the divided difference (at_pole(r+) -
+ * at_pole(r-))/(r+ - r-). The divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). */
 static double between_poles(const struct kd_null_radial *q, const struct span *s, double minus)
 {
     const struct kd_null_roots *o = &q->roots;
@@ -166,7 +166,7 @@ static double powers(const struct kd_null_roots *o, const struct span *s, double
     return s->edge + o->r2 * o->r2 * tau + 0.5 * o->p2 * second + 2 * first + four * tau;
 }
 
-/* Numerators of the rates that are divided by Delta: of the azimuth, a (2r + twist), and of the time, slope r + rest.
+/* Numerators of the terms of phi' and t' that have the divisor Delta: a (2r + twist) in phi', and slope r + rest in t'.
  */
 struct numerators { double four, twist, slope, rest; };
 
@@ -203,7 +203,7 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     const struct numerators n = numerators_of(&q->motion);
     double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
-    /* divides the numerators by r - 1, into the mean of both poles and a remainder */
+    /* splits each numerator into a multiple of r - 1, which is the mean of both poles, and a remainder */
     if (kd_hole_is_close(&q->motion.hole)) {
         double both = between_poles(q, &s, minus), mean = 0.5 * (plus + minus);
         sum.phi = a * (2 * mean + (2 + n.twist) * both);
@@ -244,14 +244,14 @@ static void jacobi_two(struct kd_null_radial *q)
     q->rate = sqrt(ab);
     q->k1 = inner > 0 ? gap / (2 * ab * (ab + inner)) : 0.5 * (1 - inner / ab);
     q->k = inner > 0 ? 0.5 * (1 + inner / ab) : gap / (2 * ab * (ab - inner));
-    /* sum: A + B, by which A^2 - B^2 = (r1 - r2)(2 mean - r1 - r2) = -2 r21 (-r1 - r2) is divided */
+    /* sum: A + B. A - B is A^2 - B^2 = (r1 - r2)(2 mean - r1 - r2) = -2 r21 (-r1 - r2), divided by this sum */
     double sum = big_a + big_b;
     q->c0 = -4 * o->r21 * o->mean / (sum * sum);
     q->s0 = 2 * sqrt(ab) / sum;
     q->d0 = sqrt(q->k1 + q->k * q->c0 * q->c0);
 }
 
-/* Computes Jacobi's functions, and finds whether the ray turns. */
+/* Computes Jacobi's functions, and determines whether the ray has a radial turning point. */
 static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots,
                                            bool inner, enum kd_null_parts parts)
 {
@@ -379,7 +379,7 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
 }
 
 /* The integral of DLMF 19.29 with a complex root r1 singled out: the root of the left pair that is above the real axis.
- * The first argument of R_C has a positive real part, because r - r1 has one. */
+ * The first argument of R_C has a positive real part, because r - r1 has a positive real part. */
 static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg arg, double r, double r5, double tau)
 {
     double left = sqrt(-o->pair_left);

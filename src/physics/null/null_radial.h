@@ -4,11 +4,11 @@
  *   (dr/dtau)^2 = R(r)        phi' = a (2r - q^2 - a lambda)/Delta
  *   t' = r^2 + 2r + 4 - q^2 + ((8 - 4q^2 - 2a lambda) r + q^2 (q^2 + a lambda - 4) - 4a^2)/Delta
  *
- * These are the parts of the rates that depend on r (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8, with 2r - q^2
- * for 2r). r(tau) is as in their section IV, except that time is counted from infinity or a turning point. Addition
- * theorems then give r - r_i as products. The integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1
- * or r2 as the root that is singled out. Unlike the reductions to Legendre's Pi they have no removable singularities
- * (r3 = horizon, lambda = 2 r+/a), and nearly every term is positive.
+ * phi' and t' are only the parts of the rates that depend on r (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8,
+ * with 2r - q^2 for 2r). r(tau) is as in section IV of that paper, except that tau is counted from infinity or a
+ * turning point. Addition theorems then give each r - r_i as a product. The integrals are Carlson's in terms of r
+ * itself (DLMF 19.29.4-10), with r1 or r2 as the root that is singled out. Unlike the reductions to Legendre's Pi they
+ * have no removable singularities (r3 = horizon, lambda = 2 r+/a), and nearly every term is positive.
  *
  * Motion is possible in two regions: OUTER, from the outermost root r4 (or the horizon) to infinity; and, if r3 >
  * r+, INNER, from the horizon to r3. Times and integrals are counted from `reference`: infinity for OUTER, r3 for
@@ -33,11 +33,12 @@ struct kd_null_radial {
     struct kd_null_motion motion;
     struct kd_null_roots roots;
     double r_plus, r_minus;
-    /* inner: true for INNER motion. turns: true if there is a turning point outside the horizon */
+    /* inner: true for INNER motion. turns: true if the ray has a radial turning point outside the horizon */
     bool inner, turns;
-    struct kd_null_radial_sum turn; /* for OUTER motion with `turns`: integrals from r4 to infinity */
+    struct kd_null_radial_sum turn; /* integrals from r4 to infinity; set for OUTER motion with `turns` */
     double tau_horizon;             /* Mino time from the horizon to the reference */
-    /* Jacobi's functions: rate of their argument; parameter and 1 minus it; values at the reference */
+    /* Numbers of Jacobi's functions. rate: rate of their argument by Mino time. k, k1: parameter, and 1 - k. s0, c0,
+     * d0: values of sn, cn and dn at the reference */
     double rate, k, k1, s0, c0, d0;
     enum kd_null_parts parts;
 };
@@ -47,16 +48,16 @@ enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
 /* The region in which a radius lies. The radius must be outside the horizon, and may be INFINITY. */
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius);
 
-/* Makes the radial motion of a ray. The roots must not be of the kind KD_NULL_NO_REAL. parts: the parts that all
- * integrals of this motion contain. */
+/* Makes the radial motion of a ray. The roots must not be of the kind KD_NULL_NO_REAL. parts: the integrals that are
+ * computed for this motion (null_quartic.h). */
 struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner,
                                         enum kd_null_parts parts);
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
-/* The radius at Mino time tau from the reference. For OUTER motion tau must be >= 0, and may reach up to the horizon,
- * or past the turning point, after which the motion is mirrored. For INNER motion tau may have any sign, up to the
- * horizon. */
+/* The radius at Mino time tau from the reference. For OUTER motion tau must be >= 0. It may reach up to the horizon, or
+ * past the turning point, where the motion is mirrored. For INNER motion tau may have either sign, and may reach up to
+ * the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
 /* Computes only the radius, at Mino time tau from infinity. Returns 0 if the ray has reached the horizon by then, and

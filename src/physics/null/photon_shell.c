@@ -109,7 +109,7 @@ double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *
 }
 
 /* Polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), and disc = n + a^2 z.
- * The radial rates use (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on these orbits. */
+ * The radial rates use (r^2 + a^2 - a lambda)/Delta = 2r/y, which holds on spherical photon orbits. */
 struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *o)
 {
     double a = fabs(o->a), a2 = a * a, lambda = fabs(o->lambda), eta = fmax(o->eta, 0), r = o->r;

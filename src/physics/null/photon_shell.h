@@ -6,7 +6,7 @@
  * (gamma, delta, tau).
  *
  * The usual formula lambda = a + (r/a)(r - 2 Delta/(r - 1)) loses all digits at small a, where all orbits have r = 3,
- * and near a = 1, where many orbits have r = 1. Let y = r - 1 and N = 1 - a^2, and let P denote the orbit over the
+ * and near a = 1, where many orbits have r = 1. Let y = r - 1 and N = 1 - a^2. The index P denotes the orbit over the
  * poles (lambda = 0). Then for a >= 0
  *
  *   w = (r - r_P)/a      x = (r - 3)/a = x_P + w      y_P^3 - (3 - a^2) y_P - 2N = 0      x_P = -4a/(r_P^2 + a^2)
@@ -30,7 +30,7 @@
 #include <stdbool.h>
 
 struct kd_shell {
-    double a;                    /* the spin as given                                       */
+    double a;                    /* spin a, with its sign                                       */
     double spin, n;              /* |a|; N = 1 - a^2 - q^2 */
     double y_polar, x_polar;     /* y_P and x_P */
     double prograde, retrograde; /* places of the equatorial orbits (see kd_shell_orbit_at) */
@@ -43,9 +43,9 @@ struct kd_shell_orbit { double a, r, y, w, lambda, eta, n; };
 
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
 
-/* The orbit at a place. The places of a hole's orbits are in order from prograde to retrograde. `place` is w where y >=
- * y_P/2. Below that, it continues with the logarithm of y, so that it distinguishes orbits at r = 1. Beyond the two
- * equatorial orbits eta is negative, and there is no orbit. */
+/* The orbit at a place. `place` numbers the orbits of a hole in order, from the prograde to the retrograde equatorial
+ * orbit. It is w where y >= y_P/2, and follows the logarithm of y at smaller y, so that it distinguishes orbits at r =
+ * 1. Beyond the equatorial orbits eta would be negative, and there is no orbit. */
 struct kd_shell_orbit kd_shell_orbit_at(const struct kd_shell *shell, double place);
 
 /* The orbit of radius r, for a != 0. Returns NaN unless r is between the radii of the equatorial orbits. */

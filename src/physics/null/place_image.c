@@ -18,8 +18,8 @@ enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
     (1.4 * M_PI) /* maximum turn of the direct image's ray about the hole; without spin it would be half a \
                   * turn */
 
-/* A vector with components along r, theta and phi, which are treated as flat spherical coordinates. This is good enough
- * to compare distances. */
+/* A vector with components along r, theta and phi, which are treated as flat spherical coordinates. This approximation
+ * suffices for comparing distances. */
 struct vector { double x[3]; };
 
 static struct vector less(const struct vector *a, const struct vector *b)
@@ -46,7 +46,7 @@ struct search {
     const struct kd_place_view *view;
     struct vector place;
     double r;
-    struct kd_null_place *places; /* memory for PLACES places */
+    struct kd_null_place *places; /* memory for the PLACES places of a ray */
 };
 
 /* The ray at a point of the chart. For an observer at infinity the chart's coordinates are alpha and beta. Otherwise
@@ -104,7 +104,7 @@ static struct vector between(const struct kd_null_place *p, double mino, double 
 /* The point of a ray that is closest to the place. */
 struct miss {
     struct vector off, way;
-    /* size: distance from the place. swept: angle that the direction from the hole has swept since the observer */
+    /* size: distance from the place. swept: angle about the hole that the ray has swept since the observer */
     double size, delay, swept;
 };
 
@@ -149,8 +149,8 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
     return best;
 }
 
-/* Removes crossings from a list of places. They may lie close to other places, and a cubic through both would be
- * ill-conditioned. */
+/* Removes crossings of the plane from a list of places. A crossing may be close to another place, and a cubic through
+ * both would be ill-conditioned. */
 static size_t apart_in_time(struct kd_null_place *p, size_t n)
 {
     size_t kept = 0;

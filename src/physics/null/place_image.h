@@ -17,7 +17,7 @@ struct kd_place_view kd_place_view_of(const struct kd_observer_motion *motion, c
 
 /* alpha, beta: labels of null_geodesic.h. look: direction, NAN for an observer at infinity. delay: as in
  * null_geodesic.h. off: distance by which the ray misses the place, M; divided by the observer's distance it is an
- * angle on the sky. chart: where the search for a neighbouring place starts. */
+ * angle on the sky. chart: coordinates at which the search for a neighbouring place's image starts. */
 struct kd_place_image {
     double alpha, beta;
     bool outward;

@@ -7,7 +7,7 @@
 
 #define STEP (2 * M_PI / 64) /* step of chi between nodes */
 #define LEAST_STEP 1e-5
-#define TABLE 1e-7 /* allowed error of ln r; sufficient for a table */
+#define TABLE 1e-7 /* allowed error of ln r for the nodes of the table */
 #define TURN 1.0   /* largest change of phi between nodes; near pi the direction of the change would be ambiguous */
 #define STRETCH \
     0.2 /* maximum change of ln rho between nodes; at a corner of the image phi may turn by 2 pi, which TURN does not \
@@ -67,10 +67,10 @@ static bool approach(const struct kd_ring_image *ring, double chi, double bound,
             side = 2;
         }
     }
-    return fabs(h) < TABLE; /* accepts a small remainder, which is due to rounding */
+    return fabs(h) < TABLE; /* accepts a small difference, which is due to rounding */
 }
 
-/* x minus whole turns, between -pi and pi. */
+/* The angle x reduced to [-pi, pi] by whole turns. */
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
 /* Adds one node, at a distance of at most `step`. Returns false if no node is left or the image is not found. */

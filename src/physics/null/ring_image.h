@@ -29,11 +29,11 @@ struct kd_ring_image {
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r,
                         int order);
 
-/* A ring image without a table. It is valid only for kd_ring_image_seen. */
+/* Makes a ring image without a table, which only kd_ring_image_seen accepts. */
 struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order);
 
-/* phi, sense: as in struct kd_null_crossing. residual: the length of Newton's last step; the error is some 1e-6 of it,
- * plus rounding. */
+/* phi, sense: as in struct kd_null_crossing. residual: the length of the last Newton step. The error is some 1e-6 of
+ * this length, plus rounding. */
 struct kd_ring_image_point {
     /* Number of images of this order. It is usually 1. Beyond a caustic it is 3 or more (high inclination and a != 0;
      * order 0 next to edge-on). */

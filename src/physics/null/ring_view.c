@@ -18,7 +18,7 @@ struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, con
 static void photon_at(const struct kd_ring_view *view, double chi, double h, double x[4])
 {
     const double right = cos(chi), up = fabs(view->rain.at.u) * sin(chi),
-                 /* off: sin(rho) = 1/cosh(h), divided by the length of (right, up) */
+                 /* off: sin(rho), which is 1/cosh(h), divided by the length of (right, up) */
         off = 1 / (cosh(h) * hypot(right, up));
     x[0] = 1, x[1] = -tanh(h), x[2] = off * up, x[3] = -off * right;
 }
@@ -59,7 +59,7 @@ static bool solve(const struct kd_ring_view *view, double chi, double *h, double
     return fabs(miss) < 1e-6;
 }
 
-/* Adds phi and delay to a point, from the closed form. */
+/* Sets phi and delay of a point, from the closed form. */
 static void add_place(const struct kd_ring_view *view, const struct kd_covector *photon, struct kd_ring_view_point *out)
 {
     const struct kd_vantage *at = &view->rain.at;

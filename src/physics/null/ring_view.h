@@ -8,8 +8,8 @@
  *
  * So chi advances evenly round a ring seen unlensed from afar. Along each chi the radius at which rays meet the plane
  * grows with rho. It starts at the edge of the dark disk, near rho = 0, and reaches infinity at rho = pi or before.
- * Therefore each chi meets the image of each order exactly once, for every ring outside the horizon. Observers that
- * move relative to rain see these directions aberrated. */
+ * Therefore each chi meets the image of each order exactly once, for every ring outside the horizon. Observers who move
+ * relative to the rain frame see these directions aberrated. */
 #ifndef KD_PHYSICS_NULL_RING_VIEW_H
 #define KD_PHYSICS_NULL_RING_VIEW_H
 

@@ -36,8 +36,9 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
 }
 
 /* Solid angle enclosed by the edge. It is extrapolated (Romberg) from the areas of three polygons, whose errors are
- * series in the squared step. The triangles of a polygon meet in a direction inside the polygon. If most of the edge is
- * closer to the opposite direction, the triangles meet in that direction instead, and their sum differs only by 4 pi.
+ * series in the squared step. The triangles of a polygon share one corner, a direction inside the polygon. If most of
+ * the edge is closer to the opposite direction, that direction is the shared corner instead, and the sum of the
+ * triangles differs only by 4 pi.
  */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {

@@ -14,11 +14,11 @@
 #include "physics/null/critical.h"
 
 struct kd_sky_view {
-    /* if it is not KD_CRITICAL_OK, no other member is set, and the view must not be passed to a function */
+    /* unless it is KD_CRITICAL_OK, no other member is set, and no function accepts the view */
     enum kd_critical_status status;
     struct kd_critical edge;
     struct kd_tetrad tetrad;
-    double dark;            /* solid angle of the dark disk */
+    double dark;            /* solid angle of the dark disk, sr */
     double least, greatest; /* smallest and largest g over the visible sky */
 };
 

@@ -9,7 +9,7 @@
 /* A phase between 0 and K, by sn, cn^2 and dn^2, each without cancellation. */
 struct phase { double s, c2, d2; };
 
-/* Integrals from 0 to a phase: of sn^2, and of sn^2/(1 - n sn^2) by the next function. rest: 1 - n sn^2 at the phase.
+/* Integral of sn^2 from 0 to a phase. The next function: integral of sn^2/(1 - n sn^2). rest: 1 - n sn^2 at the phase.
  */
 static double integral_s2(struct phase at)
 {
@@ -67,7 +67,7 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     double poles_t = ((o->near * plus - flat) * j_plus - (o->near * minus - flat) * j_minus) / gap;
     double twice = 2 * o->energy, back = o->drag;
     double poles_phi = ((twice * plus - back) * j_plus - (twice * minus - back) * j_minus) / gap;
-    /* divides the numerators by r - 1, into the mean of both poles and a remainder */
+    /* splits each numerator into a multiple of r - 1, which is the mean of both poles, and a remainder */
     if (kd_hole_is_close(&o->hole)) {
         double mean = 0.5 * (j_plus + j_minus), both = between_poles(b, u, at, beyond);
         poles_t = o->near * mean + (o->near - flat) * both;
@@ -80,8 +80,8 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     };
 }
 
-/* True if L = 0 and the motion reaches the axis. It then passes the axis at each turning point, and there the azimuth
- * jumps by pi. */
+/* True if L = 0 and the motion reaches the axis. The motion then passes the axis at each turning point of theta, where
+ * the azimuth jumps by pi. */
 static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && o->axis_gap == 0; }
 
 /* Polar part of the integrals from the equator to the phase u, whose functions are `at`. */
@@ -140,7 +140,7 @@ static void set_radial(struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double g[3], *r = b->r;
-    kd_orbit_factor(o, g); /* g0 r^2 + g1 r + g2 has the other two roots */
+    kd_orbit_factor(o, g); /* the other two roots are those of g0 r^2 + g1 r + g2 */
     r[0] = 1 / o->w_low, r[1] = 1 / o->w_high;
     r[2] = (sqrt(fmax(g[1] * g[1] - 4 * g[0] * g[2], 0)) - g[1]) / (2 * g[0]);
     r[3] = g[2] / (g[0] * r[2]);
@@ -243,7 +243,7 @@ struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound 
     return f;
 }
 
-/* 2 K(k)/pi - 1 by the arithmetic-geometric mean. Each number is stored as its difference from 1. */
+/* 2 K(k)/pi - 1 by the arithmetic-geometric mean. Each number of the mean is stored as its difference from 1. */
 static double complete_excess(double k)
 {
     double x = 0, y = k / (1 + sqrt(1 - k));

@@ -9,8 +9,8 @@
 typedef double lane __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 typedef int64_t mask __attribute__((vector_size(8 * KD_ORBIT_LANES)));
 
-/* Compiles a function for several vector widths. The widest that the processor has is selected when the program is
- * loaded. */
+/* Compiles a function for several vector widths. When the program is loaded, the version with the processor's widest
+ * vectors is selected. */
 #if defined(__x86_64__) && defined(__has_attribute)
 #if __has_attribute(target_clones) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WIDEST __attribute__((target_clones("avx512f", "avx2", "default")))
@@ -111,8 +111,8 @@ static INLINE void look(struct state *s)
     keep_greater(&s->worst_binet, &radial, &all);
 }
 
-/* Takes `steps` steps of all lanes, and returns the number left. It ends early, and sets *turned, after a step in which
- * w stopped growing in some lane. */
+/* Takes up to `steps` steps of all lanes, and returns the number of steps left. It stops early, and sets *turned, after
+ * a step in which w stopped growing in some lane. */
 WIDEST static uint64_t go(struct state *s, uint64_t steps, bool looks, bool stops, mask *turned)
 {
     const mask none = { 0 };

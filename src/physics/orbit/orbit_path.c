@@ -13,7 +13,7 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. If both ends of the range of w are known, it is computed from the distances of w to these ends. So a
+/* Half of W'. If both ends of the range of w are known, W' is computed from the distances of w to these ends. So a
  * circular orbit, whose ends coincide, stays circular for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
@@ -30,7 +30,7 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place: first the forces, without those of the springs; then the rates of proper
+/* The derivatives of `rate` at a place. 0, 1: forces on w and y without those of the springs. 2 to 4: rates of proper
  * time, t and chi. rest: rounding error of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
@@ -111,8 +111,8 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The total force at the time `at` * h. The force is taken at the place to which the present rates lead by then,
- * displaced further by h^2 `sum`. */
+/* The total force at the time `at` * h. The place is that to which the present rates lead by this time, displaced by
+ * h^2 `sum`. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
@@ -165,8 +165,8 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->hole.a * (near - inner) / gap;
 }
 
-/* Changes to ingoing coordinates when the fall is final. This is when there is no turning point further in, and W is no
- * longer small, so that its root is smooth. */
+/* Changes to ingoing coordinates when the fall is final. The fall is final when there is no turning point further in,
+ * and W is no longer small, so that sqrt(W) is smooth. */
 static void enter(struct kd_orbit_path *p)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -279,8 +279,8 @@ struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *p)
         .mass = NAN,
         .binet = a2 == 0 ? radial : NAN,
     };
-    /* the residual of mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...; the residuals of w and u have the
-     * weights of their terms */
+    /* residual of mass^2 Sigma = (P^2 - r'^2)/Delta - u'^2/sin^2 theta - ...: the residuals of w and of u, each
+     * weighted as its term in this equation */
     if (w * o->hole.outer < 0.99 && sine2 > 0.01)
         d.mass = -(radial / (w * w * kd_hole_delta_w(&o->hole, w)) + polar / sine2) / (1 / (w * w) + a2 * u2);
     return d;
@@ -293,7 +293,7 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* Kinds of events. An event is a zero of height(). */
+/* Kinds of events on a path. An event is a zero of height(). */
 enum event { APSIS, RADIUS, TIME };
 
 static double height(const struct kd_orbit_path *p, enum event event, double aim)
@@ -315,7 +315,7 @@ static struct kd_orbit_path to_event(const struct kd_orbit_path *path, double h,
     for (int i = 0; i < 100 && f_low != f_high; i++) {
         double at = isfinite(f_high) ? high - f_high * (high - low) / (f_high - f_low) : 0.5 * (low + high);
         if (!(at > fmin(low, high) && at < fmax(low, high)) || fabs(high - low) < 1e-15 * fabs(h)) {
-            if (at == low) /* the event is at `low`, possibly at the beginning of the step */
+            if (at == low) /* the event is at `low`, which may be the start of the step */
                 best = low == 0 ? *path : moved(path, low);
             break;
         }

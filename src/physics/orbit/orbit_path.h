@@ -13,7 +13,7 @@
  *   |L|/(1 - u^2) = d/dlambda atan2(cc y (N - a^2 b u^2), y') - a^2 b cc (1 - y^2)/(1 - nu y^2)
  *
  * (null_polar.h has the same for light; tests/unit/physics_orbit.c checks it by quadrature). E and L of the orbit are
- * parameters; L enters no momentum and is conserved exactly.
+ * parameters. L is not part of any momentum, and is conserved exactly.
  *
  *   KD_ORBIT_YOSHIDA6  H. Yoshida 1990, Phys. Lett. A 150, 262, solution A: seven leapfrogs a step. In their drifts y
  *                      moves as the harmonic oscillator that it is for a = 0. Where relativity is a small disturbance
@@ -53,16 +53,16 @@ struct kd_orbit_path {
     bool factored, ingoing;
     double g[3];
     struct kd_spring spring[KD_PATH_PLACES];
-    double stiff;                /* growth rate of y, if the linear force of y is repulsive */
-    double cc, nu, twist, swing; /* constants of the azimuth; swing: value of the fast part at the start */
-    /* where the path changed to ingoing coordinates: ingoing coordinates minus t and phi */
+    double stiff;                /* rate at which y grows if its linear force is repulsive */
+    double cc, nu, twist, swing; /* cc, nu, twist: constants of the azimuth. swing: its fast part at the start */
+    /* ingoing time minus t, and ingoing azimuth minus phi, where the path changed to ingoing coordinates */
     double entry_t, entry_phi;
     struct kd_exact place[KD_PATH_PLACES]; /* 0: w. 1: y. */
     /* 0, 1: derivatives of w and y. 2: proper time. 3: t. 4: the smooth part of phi */
     struct kd_exact rate[KD_PATH_RATES];
     struct kd_exact mino;
     int half_turns;
-    double turn_h; /* step for which the springs' rotations were computed */
+    double turn_h; /* step h for which the springs' rotations were computed */
 };
 
 /* Begins a path. start: result of kd_orbit_start or kd_orbit_from_state. */
@@ -86,8 +86,8 @@ struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, do
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);
 
-/* For the files of this folder: Yoshida's weights w3, w2, w1, w0; and the function that computes the rotations of a
- * spring in the drifts of a step of h. */
+/* Only for files of this folder: Yoshida's weights w3, w2, w1, w0, and the function that computes a spring's rotations
+ * in the drifts of a step h. */
 extern const double kd_orbit_kicks[4];
 void kd_orbit_set_turns(struct kd_spring *spring, double h);
 

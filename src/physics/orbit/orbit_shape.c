@@ -30,8 +30,8 @@ static struct column differences(const struct kd_hole *hole, const double mass[2
                              three - 2 * two + kd_hole_horizons(hole) * one + a2 * z * (one - 2) };
 }
 
-/* The positive root l of the quadratic equation at r, for given E and b = 1 - E^2. f - d = g (r^2 + a^2) and b are used
- * instead of d and E^2. */
+/* The positive root l of the quadratic equation at r, for given E and b = 1 - E^2. To avoid cancellation it uses f - d
+ * = g (r^2 + a^2) and b instead of d and E^2. */
 static double root_at(const struct column *v, double ax, double r, double a2, double energy, double binding)
 {
     double half = v->g * ax * energy, rest = v->g * (r * r + a2) - v->f * binding;
@@ -51,8 +51,8 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
 
 /* In wide orbits Schmidt's formula for E loses the digits of b, and so does the formula for l. With E^2 = 1 - b,
  * eliminating l^2 from the two equations gives rho b = chi - 2 a x sigma E l, with chi from f - d instead of d. In this
- * equation E and l occur only in a small term. Next to a parabola it loses digits as well. There b follows from W = 0
- * at the outer turning point, which is almost b = 2w. */
+ * equation E and l occur only in a small term. Next to a parabola this equation loses digits as well. Next to a
+ * parabola b follows from W = 0 at the outer turning point, which is almost b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
     double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x, mass[2];
@@ -94,7 +94,7 @@ static struct kd_orbit of_shape(const struct kd_hole *hole, double p, double e, 
     return o;
 }
 
-/* True if W > 0 between the turning points and W < 0 just beyond both of them, that is, if r3 < r2. */
+/* True if W > 0 between the two turning points and W < 0 just beyond each, that is, if r3 < r2. */
 static bool stable(const struct kd_orbit *o)
 {
     double g[3], w = o->w_high;

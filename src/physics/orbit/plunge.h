@@ -22,9 +22,10 @@ struct kd_plunge {
     double stretch, bend;
     double shift; /* bend/stretch */
     /* Partial fractions of t and phi in z = sqrt(r/(isco - r) - shift), for the outer and for the inner horizon. pole:
-     * position of the pole. t, phi: coefficients of artanh(pole/z)/pole, without the factor isco/(isco - r_horizon). */
+     * position of the pole. t, phi: coefficients of artanh(pole/z)/pole in t and phi, without the factor isco/(isco -
+     * r_horizon). */
     struct kd_plunge_pole { double pole, t, phi; } outer, inner;
-    double t_rate, phi_rate; /* derivatives of t and phi by z, in the limit z -> infinity */
+    double t_rate, phi_rate; /* dt/dz and dphi/dz in the limit z -> infinity */
 };
 struct kd_plunge kd_plunge_of(const struct kd_hole *hole);
 
@@ -33,7 +34,7 @@ struct kd_plunge kd_plunge_of(const struct kd_hole *hole);
 struct kd_plunge_event { double t, phi; };
 struct kd_plunge_event kd_plunge_at(const struct kd_plunge *plunge, double r);
 
-/* dr, dt and dphi per proper time; ut and uphi diverge at the horizon. */
+/* Derivatives of r, t and phi by proper time. ut and uphi diverge at the horizon. */
 struct kd_plunge_velocity { double ur, ut, uphi; };
 struct kd_plunge_velocity kd_plunge_velocity(const struct kd_plunge *plunge, double r);
 

@@ -7,7 +7,8 @@
 #include <float.h>
 #include <math.h>
 
-/* relative range of w below which a motion is nearly circular; the ends of wider motions are roots of W, to 1e-12 */
+/* relative range of w below which a motion counts as nearly circular. The ends of wider ranges are found as roots of W,
+ * with an error of 1e-12 */
 #define NEAR_CIRCLE 1e-3
 
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
@@ -30,7 +31,7 @@ double kd_orbit_radial_by_energy(const struct kd_orbit *o, double w)
 }
 
 /* z is the root, in u^2, that the motion reaches. 1 - z follows from the product L^2 = (1 - z)(n - a^2 b) or from z n =
- * Q. The form without subtraction is used. */
+ * Q. Of both forms the one without subtraction is used. */
 static void set_polar(struct kd_orbit *o)
 {
     double flat = o->hole.a * o->hole.a * o->binding, l2 = o->momentum * o->momentum, sum = o->total + flat;
@@ -60,7 +61,7 @@ void kd_orbit_set_constants(struct kd_orbit *o)
     set_polar(o);
 }
 
-/* Finds the range between roots that contains w. If w is NAN, finds the outermost range. */
+/* Finds the range between roots of W that contains w, or the outermost range if w is NAN. */
 static bool find_range(struct kd_orbit *o, double w)
 {
     double roots[KD_POLYNOMIAL_DEGREE + 2], horizon = 1 / o->hole.outer;
@@ -76,7 +77,8 @@ static bool find_range(struct kd_orbit *o, double w)
         if (allowed && here) {
             high = next;
             o->w_low = low, o->w_high = high;
-            /* true if low is above 0; w = 0 is not a turning point, because infinity is a root for E = 1 */
+            /* true if the lower end is above 0: w = 0 is infinity, which is a root for E = 1, but not a turning point
+             * */
             o->turns_out = low > 0;
             o->turns_in = i < n;
             o->circular = touches;
@@ -156,7 +158,8 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
         s.w = o->w_high;
     else
         s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
-    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* an unstable orbit starts inside the circle, by one ulp of w */
+    /* a body on an unstable circle starts inside the circle, by one ulp of w */
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) {
         double g[3];
         kd_orbit_factor(o, g);
         s.w = nextafter(o->w_high, 1);
@@ -234,7 +237,7 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
 
 /* Finds the range of motion for a start that is, within rounding, at a turning point or slightly beyond it. The error
  * of W there is `unknown`, 64 roundings of its largest terms. The range is therefore where W exceeds `unknown`. If W
- * does not exceed it before the next extremum of W, the orbit is a circle: both ends of the range coincide. */
+ * does not exceed `unknown` before the next extremum of W, the orbit is a circle: both ends of the range coincide. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),

@@ -24,21 +24,21 @@ const char *kd_orbit_fate_name(enum kd_orbit_fate fate); /* The name of a fate: 
 
 struct kd_orbit {
     struct kd_hole hole;
-    double energy, binding;  /* E; and 1 - E^2, which is stored separately because E may be close to 1 */
+    double energy, binding;  /* energy: E. binding: 1 - E^2, stored too because E may be close to 1 */
     double momentum, carter; /* L and Q */
-    double k, total;         /* K; and the sum L^2 + Q */
+    double k, total;         /* k: K. total: L^2 + Q */
     double w[5];             /* coefficients of W(w), in ascending powers */
-    /* Numbers in the rates per Mino time. The rate of azimuth is a (2E r - drag)/Delta + L/sin^2 theta. The rate of
-     * time is E (r^2 + 2r + four + a^2 u^2) + (near r - 4 a^2 E - nearer)/Delta. */
+    /* Numbers of the rates of azimuth and time by Mino time. The rate of azimuth is a (2E r - drag)/Delta + L/sin^2
+     * theta. The rate of time is E (r^2 + 2r + four + a^2 u^2) + (near r - 4 a^2 E - nearer)/Delta. */
     double drag, four, near, nearer;
     /* Polar motion: u'^2 = (z - u^2)(n - a^2 b u^2), with z n = Q. u oscillates between -sqrt(z) and sqrt(z). For Q < 0
-     * it stays on one side of the equator. */
-    double z, n, axis_gap; /* axis_gap is 1 - z */
+     * the motion stays on one side of the equator. */
+    double z, n, axis_gap; /* axis_gap: 1 - z */
     enum kd_orbit_fate fate;
     /* The range of 1/r of the motion. An end is a turning point if there is one; otherwise w_low is 0 (infinity), and
      * w_high is 1/r+ (the horizon). */
     double w_low, w_high;
-    bool turns_out, turns_in; /* true if w_low is a turning point; true if w_high is one */
+    bool turns_out, turns_in; /* turns_out: w_low is a turning point. turns_in: w_high is one */
     /* true if r is constant, so that both ends coincide; fate is PLUNGE if such an orbit is unstable */
     bool circular;
 };
@@ -53,11 +53,11 @@ struct kd_orbit_state { double w, w_rate, u, u_rate; };
 enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double e, double x, struct kd_orbit *orbit,
                                    struct kd_error *error);
 
-/* The separatrix: the smallest p of a stable orbit with this e and x. For e = 0 it is the radius of the innermost
- * stable circular or spherical orbit. */
+/* The separatrix: the smallest p of a stable orbit with this eccentricity e and inclination cosine x. For e = 0 it is
+ * the radius of the innermost stable circular or spherical orbit. */
 double kd_orbit_separatrix(const struct kd_hole *hole, double e, double x);
-/* Radius of the photon orbit with this x. Circular and spherical orbits of bodies, stable or not, exist only outside
- * it. */
+/* Radius of the photon orbit with the inclination cosine x. Circular and spherical orbits of bodies, stable or not,
+ * exist only outside it. */
 double kd_orbit_least_circle(const struct kd_hole *hole, double x);
 
 /* Orbit with given constants; Q must be >= 0. r: radius of a point of the orbit, or NAN for the outermost range that
@@ -82,17 +82,17 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, boo
 /* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. Returns the factor by
  * which a relative error of the constants is amplified in the length of the coming whirl. The factor is the size of the
  * terms of W divided by W, at the minimum of W. The time until the motion passes the minimum, or turns there, grows as
- * the logarithm of this factor. Returns 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r
- * (may be NULL): radius of the whirl. */
+ * the logarithm of this factor. Returns 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r:
+ * radius of the whirl; r may be NULL. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);
 
-/* W(w). The next functions: its derivative; and the derivative of W by E at fixed L and Q, which converts a residual of
- * W to a residual of E. */
+/* kd_orbit_radial: W(w). kd_orbit_radial_slope: dW/dw. kd_orbit_radial_by_energy: derivative of W by E at fixed L and
+ * Q, which converts a residual of W to a residual of E. */
 double kd_orbit_radial(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_slope(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 
-/* For the files of this folder: sets all members that depend only on the hole, E, b, L and Q. */
+/* Only for files of this folder: sets all members that depend only on the hole, E, b, L and Q. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
 
 /* Divides W by its two turning points: W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2). Both ends of the range

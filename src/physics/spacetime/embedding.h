@@ -20,7 +20,7 @@ double kd_embedding_radius(const struct kd_hole *hole, double r);
 double kd_embedding_height(const struct kd_hole *hole, double r);
 
 /* Proper distance from the horizon along r: sqrt(Delta) + ln((r - 1 + sqrt(Delta))/sqrt(1 - a^2)). Its relative error
- * is that of the height. */
+ * is the same as that of the height. */
 double kd_embedding_distance(const struct kd_hole *hole, double r);
 
 #endif

@@ -5,7 +5,7 @@
  *     kappa^2     = Omega^2 (1 - 6/r + 8a r^(-3/2) - 3a^2/r^2)       radial
  *     Omega_th^2  = Omega^2 (1 - 4a r^(-3/2) + 3a^2/r^2)             vertical
  *
- * With charge, in terms of kd_kerr_ring (kerr.h),
+ * With charge, in the notation of struct kd_kerr_ring (kerr.h),
  *
  *     kappa^2     = Omega^2 X/(r s)^2
  *     Omega_th^2  = Omega^2 ((r^2 + a^2) sigma^2 + 2a sigma Delta + a^2 Delta)/(r s)^2

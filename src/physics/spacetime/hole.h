@@ -16,7 +16,7 @@
 
 struct kd_hole {
     double a;     /* spin */
-    double q;     /* charge, in units of M */
+    double q;     /* charge q, in units of M */
     double root;  /* half the distance between the horizons, accurate to an ulp or two, also as |a| -> 1 */
     double outer; /* r+, accurate to a few ulp up to |a| = 1 - 1e-15 */
     double inner; /* r- */
@@ -35,8 +35,8 @@ static inline struct kd_hole kd_hole_of(double a)
  * of kd_hole_of bit by bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
-/* The hole with the given parameters. kd_hole_in makes it from any struct that has them as members. kd_hole_told is the
- * inverse. */
+/* kd_hole_from: the hole with the given parameters. kd_hole_in: the hole with the parameters that any struct has as
+ * members. kd_hole_told: the parameters of a hole. */
 static inline struct kd_hole kd_hole_from(struct kd_hole_given given)
 {
     return kd_hole_charged(given.spin, given.charge);
@@ -55,11 +55,11 @@ static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->
 /* True if the charge has any effect, that is, if its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
-/* True if the horizons are close to each other. If they are not close, time and azimuth may be computed as a difference
- * of two integrals, each with a pole at one horizon. Their error is 1e-16/(r+ - r-), which is then below 2e-15. */
+/* True if the horizons are close to each other. Otherwise time and azimuth may be computed as a difference of two
+ * integrals, each with a pole at one horizon, because the difference's error, 1e-16/(r+ - r-), is below 2e-15. */
 static inline bool kd_hole_is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
 
-/* r - horizon, for one of the two horizons. If the horizons are close, it uses r - 1, which is exact. */
+/* r - horizon, for one of the two horizons. If the horizons are close, the function uses r - 1, which is exact. */
 static inline double kd_hole_past(const struct kd_hole *hole, double r, double horizon)
 {
     if (!kd_hole_is_close(hole))
@@ -79,11 +79,11 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
 /* Returns KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
-/* The approximation that is reported for a parameter of the hole, by index; NULL after the last one. */
+/* The approximation that is reported for the hole's parameter with this index; NULL after the last one. */
 struct kd_hole_sentence { const char *name, *text; };
 const struct kd_hole_sentence *kd_hole_sentence(struct kd_hole_given given, size_t index);
 
-/* For errors about nearly extremal holes: the larger of spin and charge. */
+/* The parameter that an error about a nearly extremal hole names: the larger of spin and charge. */
 struct kd_hole_parameter {
     const char *name, *pointer;
     double value;
@@ -119,10 +119,10 @@ static inline double kd_hole_delta_y(const struct kd_hole *hole, double y)
 /* Delta at r = 0, which is the product of the horizons, a^2 + q^2. */
 static inline double kd_hole_horizons(const struct kd_hole *hole) { return hole->a * hole->a + hole->q * hole->q; }
 
-/* kd_hole_delta_sum: Delta - a^2 as a sum of its terms. The next function: Delta/r^2 as such a sum. Schmidt's
+/* kd_hole_delta_sum: Delta - a^2 as a sum of its terms. kd_hole_delta_sum_w: Delta/r^2 as a sum of its terms. Schmidt's
  * conditions on bound orbits (orbit_shape.c) have determinants in which the terms of Delta cancel against each other.
- * Next to the separatrix at a = 1 - 1e-9 (p = 1.21, e = 0.1) E is then off by 1.6e-13; with Delta as a product it would
- * be off by 6.8e-12. */
+ * Next to the separatrix at a = 1 - 1e-9 (p = 1.21, e = 0.1) these sums give E with an error of 1.6e-13; Delta as a
+ * product would give 6.8e-12. */
 static inline double kd_hole_delta_sum(const struct kd_hole *hole, double r) { return r * (r - 2) + hole->q * hole->q; }
 static inline double kd_hole_delta_sum_w(const struct kd_hole *hole, double w)
 {
@@ -135,16 +135,16 @@ static inline double kd_hole_delta_sum_w(const struct kd_hole *hole, double w)
 #define KD_HOLE_DELTA_W(root, w) ((1 - (w) - (root) * (w)) * (1 - (w) + (root) * (w))) /* also for vectors */
 static inline double kd_hole_delta_w(const struct kd_hole *hole, double w) { return KD_HOLE_DELTA_W(hole->root, w); }
 
-/* kd_hole_mass: the mass term of the metric, 2r - q^2 (2r without charge). The next function: this term divided by r,
- * as a function of w = 1/r. */
+/* kd_hole_mass: the mass term of the metric, 2r - q^2 (2r without charge). kd_hole_mass_w: this term divided by r, as a
+ * function of w = 1/r. */
 static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
 static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
 
 /* Coefficients c of the mass term: kd_hole_mass is c[0] r + c[1], and kd_hole_mass_w is c[0] + c[1] w. */
 static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
 
-/* kd_hole_pull: the rate of decrease of the mass term, -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. The next
- * function: this rate in the plane, where Sigma = r^2, divided by r: 1 - q^2/r. */
+/* kd_hole_pull: the rate of decrease of the mass term, -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u.
+ * kd_hole_pull_w: this rate in the plane, where Sigma = r^2, divided by r: 1 - q^2/r. */
 static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u)
 {
     return (r - hole->a * u) * (r + hole->a * u) / r - hole->q * hole->q;

@@ -15,9 +15,10 @@ bool kd_infall_is_level(const struct kd_observer_motion *m, const struct kd_vant
  * fall_from - r, which vanishes at fall_from. */
 struct fall {
     struct kd_hole hole;
-    /* c: coefficients. above: distance from the upper end of the range to fall_from */
+    /* c: coefficients of the polynomial. above: distance from the upper end of the range of r to fall_from */
     double c[5], u, low, span, above;
-    double energy, momentum, swing, carter; /* E; L; L/sin^2(theta); and K = Q + (L - a E)^2 */
+    /* energy: E. momentum: L. swing: L/sin^2(theta). carter: K = Q + (L - a E)^2 */
+    double energy, momentum, swing, carter;
     bool from_rest;
 };
 
@@ -41,8 +42,7 @@ static struct fall fall_of(const struct kd_observer_motion *m, const struct kd_v
         .swing = l == 0 ? 0 : ls / at->s,
         .carter = k,
     };
-    /* divides by fall_from - r; coefficients are in ascending powers, and the first ones vanish exactly without
-     * spin */
+    /* divides by fall_from - r. Coefficients are in ascending powers; without spin the first ones are exactly 0 */
     if (f.from_rest)
         for (int i = 0; i < 4; i++)
             f.c[i] = (f.c[i] + (i ? f.c[i - 1] : 0)) / m->fall_from;
@@ -56,9 +56,9 @@ static double momentum_inwards(const struct fall *f, double r)
     return f->energy * (r * r + a * a) - a * f->momentum;
 }
 
-/* -Sigma r'. y: distance from the upper end of the range, divided by the length of the range. Between the horizons
- * (Sigma r')^2 = P^2 - Delta (r^2 + K) is a sum of positive terms and is used. The polynomial would lose digits there
- * by cancellation if the horizons almost coincided. */
+/* -Sigma r'. y: distance from the upper end of the range, divided by the length of the range. Between the horizons the
+ * function uses (Sigma r')^2 = P^2 - Delta (r^2 + K), which is a sum of positive terms there. The polynomial would lose
+ * digits by cancellation if the horizons almost coincided. */
 static double speed(const struct fall *f, double r, double y)
 {
     double speed2 = 0, delta = kd_hole_delta(&f->hole, r), p = momentum_inwards(f, r);

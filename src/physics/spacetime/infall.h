@@ -29,8 +29,8 @@ struct kd_infall_way kd_infall_way(const struct kd_observer_motion *motion, cons
 struct kd_infall_way kd_infall_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                      double proper_time);
 
-/* Smallest radius of a falling camera. It is just outside the radius where the model ends, because at that radius
- * itself a picture has no defined limit. */
+/* Smallest radius of a falling camera. It is just outside the radius at which the model ends, because pictures have no
+ * defined limit at that radius. */
 double kd_infall_last(const struct kd_hole *hole);
 
 #endif

@@ -68,16 +68,16 @@ double kd_kerr_isco(const struct kd_hole *hole)
     double z2 = sqrt(3 * a * a + z1 * z1);
     double r = 3 + z2 - copysign(sqrt(fmax(0, 3 - z1) * (3 + z1 + 2 * z2)), a);
 
-    /* 3 - Z1 cancels for small a, may become negative, and its root is accurate to 1e-8 only. Newton on the defining
-     * quartic in x = sqrt(r), x^4 - 6x^2 + 8ax - 3a^2 = 0, mends it. Near a = 1 the quartic has a triple root, and
-     * the formula is more accurate. */
+    /* For small a, 3 - Z1 loses digits by cancellation and may be negative, and its root is accurate to 1e-8 only.
+     * Newton's method on the defining quartic in x = sqrt(r), x^4 - 6x^2 + 8ax - 3a^2 = 0, restores the digits. Near a
+     * = 1 the quartic has a triple root, and the formula is more accurate. */
     if (fabs(a) < 0.7) {
         double x = sqrt(r);
         for (int i = 0; i < 3; i++)
             x -= (((x * x - 6) * x + 8 * a) * x - 3 * a * a) / ((4 * x * x - 12) * x + 8 * a);
         r = x * x;
     }
-    return fabs(a) <= 1 ? r : NAN; /* NaN outside the domain, where the cube roots would still give a number */
+    return fabs(a) <= 1 ? r : NAN; /* returns NaN outside the domain, where the cube roots would still give a number */
 }
 
 double kd_kerr_photon_orbit(const struct kd_hole *hole)
@@ -112,7 +112,7 @@ static double energy_above_rest(const void *user, double y)
 double kd_kerr_marginally_bound(const struct kd_hole *hole)
 {
     const double a = hole->a;
-    /* E decreases from infinity on the photon orbit to less than 1 at the ISCO, which brackets the root */
+    /* E decreases from infinity at the photon orbit to less than 1 at the ISCO, so these radii bracket the root */
     if (kd_hole_is_charged(hole))
         return 1 + kd_root(energy_above_rest, hole, kd_kerr_ring_of_light(hole), kd_kerr_ring_innermost(hole));
     double s = 1 + sqrt(1 - a);

@@ -16,8 +16,8 @@ double kd_kerr_ergosphere(const struct kd_hole *hole, double cos_theta);
  * the root of kd_kerr_ring_excess. */
 double kd_kerr_isco(const struct kd_hole *hole);
 
-/* Radii of the circular photon orbit [BPT eq. 2.18] and, by the next function, of the marginally bound orbit [BPT eq.
- * 2.19]. With charge they are the roots of P and of E - 1. */
+/* The first function: radius of the circular photon orbit [BPT eq. 2.18]; with charge it is the root of P. The second
+ * function: radius of the marginally bound orbit [BPT eq. 2.19]; with charge it is the root of E - 1. */
 double kd_kerr_photon_orbit(const struct kd_hole *hole);
 double kd_kerr_marginally_bound(const struct kd_hole *hole);
 
@@ -45,8 +45,9 @@ double kd_kerr_ring_of_light(const struct kd_hole *hole);
 /* y of the innermost stable circular orbit */
 double kd_kerr_ring_innermost(const struct kd_hole *hole);
 
-/* Circular equatorial orbit at a radius r outside the photon orbit. In this order: angular velocity d(phi)/dt [BPT
- * 2.16], energy and angular momentum per mass [BPT 2.12, 2.13], and u^t. */
+/* Numbers of the circular equatorial orbit at a radius r outside the photon orbit. kd_kerr_omega: angular velocity
+ * d(phi)/dt [BPT 2.16]. kd_kerr_energy, kd_kerr_momentum: energy and angular momentum per mass [BPT 2.12, 2.13].
+ * kd_kerr_ut: u^t. */
 double kd_kerr_omega(const struct kd_hole *hole, double r);
 double kd_kerr_energy(const struct kd_hole *hole, double r);
 double kd_kerr_momentum(const struct kd_hole *hole, double r);
@@ -58,7 +59,7 @@ double kd_kerr_stiffness_radial(const struct kd_hole *hole, double r);
 double kd_kerr_stiffness_vertical(const struct kd_hole *hole, double r);
 
 /* Effects in weak fields. kd_kerr_weak_bending: bending of light in the equatorial plane with the impact parameter b,
- * to the second order in 1/b (deflection.h). The next function: advance of the periastron of an orbit with semi-latus
+ * to the second order in 1/b (deflection.h). The other function: advance of the periastron of an orbit with semi-latus
  * rectum p, to the first order in 1/p and for a = 0. It is 6 pi/p (Einstein 1915), or with charge (6 - q^2) pi/p, the
  * limit of kd_orbit_periastron_advance for p -> infinity. */
 double kd_kerr_weak_bending(const struct kd_hole *hole, double b);

@@ -9,7 +9,7 @@
 
 static double delta_of(const struct kd_vantage *at) { return kd_hole_delta(&at->hole, at->r); }
 
-/* Sigma, Delta and B, with which g_phiphi = B sin^2(theta)/Sigma. */
+/* Sigma, Delta and B of the metric, where g_phiphi = B sin^2(theta)/Sigma. */
 struct shape { double sigma, delta, big; };
 
 static struct shape shape_of(const struct kd_vantage *at)
@@ -223,7 +223,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     *bound = at->r;
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
-    struct kd_vantage here = *at; /* within the horizon, every body falls that came through the horizon */
+    struct kd_vantage here = *at; /* within the horizon, every body that came through the horizon falls */
     here.r = fmax(at->r, at->hole.outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))

@@ -12,8 +12,8 @@
 #include <stdbool.h>
 
 /* A row is X(NAME, word, description, where it exists, edge(a, cos(theta)), name of the edge, what holds inside). The
- * observer exists at radii larger than its edge. The velocity of the last observer is a parameter, so this observer
- * cannot be the frame in which other velocities are measured. */
+ * observer exists at radii larger than its edge. The last observer's velocity is a parameter, so its frame cannot be
+ * the one in which other velocities are measured. */
 #define KD_OBSERVERS_OF_NO_NUMBERS(X) \
     X(STATIC, static, "at rest with respect to infinity", \
       "outside the ergosphere, r > 1 + sqrt(1 - Q^2 - a^2 cos^2 i)", kd_kerr_ergosphere(hole, u), "the ergosphere", \
@@ -60,10 +60,11 @@ static inline int kd_observer_sense(enum kd_observer observer)
  * others. */
 struct kd_observer_motion {
     enum kd_observer observer;
-    /* for "velocity": components along e_r, e_theta and e_phi of the observer of zero angular momentum; the speed must
-     * be less than 1 */
+    /* for "velocity": components along e_r, e_theta and e_phi, measured by the observer of zero angular momentum; the
+     * speed must be less than 1 */
     double velocity[3];
-    /* for "infall": the radius from which it falls, at rest there except for its angular momentum; may be INFINITY */
+    /* for "infall": the radius from which the observer falls; there it is at rest except for its angular momentum; may
+     * be INFINITY */
     double fall_from;
     double fall_energy;   /* for "infall": E per mass; INFINITY if it is computed from fall_from */
     double fall_momentum; /* for "infall": L per mass */

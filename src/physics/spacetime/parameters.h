@@ -5,9 +5,9 @@
  * which the hole is Kerr's. The arguments are
  *     name         of the field, and of the members of structs that have it
  *     member       of struct kd_hole (hole.h)
- *     least, most  in a scene; shown: the most that the page's control reaches
+ * least, most in a scene; shown: the largest value of the page's control
  *     unit, card   the unit, and the keyword in FITS
- *     what, bound  in helps: what it is, and which values a hole has
+ * what, bound in help texts: what the parameter is, and which values a hole may have
  *     help         of the scene's field
  *     source       of the metric
  *     told, text   name and sentence of the approximation that is reported wherever the parameter is not 0
@@ -24,7 +24,7 @@
       "hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are " \
       "neutral, and the charge affects them only through space-time")
 
-/* Lists made from it. KD_HOLE_MEMBERS declares all parameters as members, the spin first. */
+/* Lists made from KD_HOLE_MORE. KD_HOLE_MEMBERS declares all parameters as members, the spin first. */
 #define KD_HOLE_MEMBER_(x, name, ...) double name;
 #define KD_HOLE_MORE_MEMBERS KD_HOLE_MORE(KD_HOLE_MEMBER_, )
 #define KD_HOLE_MEMBERS \

@@ -7,7 +7,7 @@
  * It is the larger root of A E^2 - 2 a (2r - q^2) L E - (r^2 - 2r + q^2) L^2 - mu^2 r^2 Delta = 0: J. M. Bardeen, W. H.
  * Press & S. A. Teukolsky 1972, ApJ 178, 347, eq. 2.9 with R = 0; C. W. Misner, K. S. Thorne & J. A. Wheeler 1973, eq.
  * 33.32. For a = 0 it is sqrt((1 - 2/r)(mu^2 + L^2/r^2)). Relative error below 1e-14 for a L >= 0. For a L < 0 and
- * large |L|, V has a zero at the static limit; its error is then 1e-15 of either term of the sum. */
+ * large |L|, V has a zero at the static limit, and its error is 1e-15 of either term of the sum. */
 #ifndef KD_PHYSICS_SPACETIME_POTENTIAL_H
 #define KD_PHYSICS_SPACETIME_POTENTIAL_H
 

@@ -3,15 +3,15 @@
 #ifndef KD_PHYSICS_SPACETIME_SCALE_H
 #define KD_PHYSICS_SPACETIME_SCALE_H
 
-/* Size of M, in this order: the length M = G m/c^2 in metres, the time M = G m/c^3 in seconds, and the angle of M on
- * the sky in microarcseconds. */
+/* The unit M. kd_scale_metres: the length G m/c^2 in metres. kd_scale_seconds: the time G m/c^3 in seconds.
+ * kd_scale_microarcseconds: the angle of this length on the sky in microarcseconds. */
 double kd_scale_metres(double mass_msun);
 double kd_scale_seconds(double mass_msun);
 double kd_scale_microarcseconds(double mass_msun, double distance_pc);
 
 /* Proper time from the horizon to the singularity for a = 0, in M. KD_SCALE_FALL: for a fall from rest at infinity,
- * 4/3, which is the integral of dr/sqrt(2/r) from 0 to 2. The other: the maximum, pi, for a fall from rest at the
- * horizon (Misner, Thorne & Wheeler 1973, ch. 31). */
+ * 4/3, which is the integral of dr/sqrt(2/r) from 0 to 2. KD_SCALE_FALL_LONGEST: the maximum, pi, for a fall from rest
+ * at the horizon (Misner, Thorne & Wheeler 1973, ch. 31). */
 #define KD_SCALE_FALL (4. / 3)
 #define KD_SCALE_FALL_LONGEST M_PI
 

@@ -41,8 +41,8 @@ static void swap(double *a, double *b)
     }
 }
 
-/* Largest entry of a row in magnitude, the scale of the row. The unknowns are pure numbers, so rows are compared
- * relative to their scales. */
+/* Scale of a row: the largest magnitude of its entries. The unknowns are pure numbers, so rows are compared relative to
+ * their scales. */
 static double size(const double row[5])
 {
     return fmax(fmax(fabs(row[0]), fabs(row[1])), fmax(fabs(row[2]), fabs(row[3])));

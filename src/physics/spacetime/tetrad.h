@@ -6,9 +6,9 @@
  * x_phi) has the covector sum of x_i e_i. For a photon of local energy 1 along the unit vector m, x is (1, m). For a
  * body of velocity v, x is gamma (1, v).
  *
- * A covector p is stored by covariant components in the form that kernels start from. All of them are finite on the
- * axis and at a horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity
- * dr/dlambda in Mino time. */
+ * A covector p is stored as the four numbers with which kernels start. All four are finite on the axis and at a
+ * horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity dr/dlambda in
+ * Mino time. */
 #ifndef KD_PHYSICS_SPACETIME_TETRAD_H
 #define KD_PHYSICS_SPACETIME_TETRAD_H
 
@@ -33,8 +33,8 @@ struct kd_tetrad {
     double past_rain[4];
 };
 
-/* kd_tetrad_covector: the covector with the components x. kd_tetrad_components: the components of a covector. At a
- * horizon, where E, L and Delta p_r are not independent, kd_tetrad_components gives NaN or infinity. */
+/* kd_tetrad_covector: the covector with the local components x. kd_tetrad_components: the local components of a
+ * covector. At a horizon, where E, L and Delta p_r are not independent, kd_tetrad_components gives NaN or infinity. */
 struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4]);
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4]);
 
@@ -53,9 +53,9 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame);
 struct kd_look { double right, up, inwards, energy; };
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
 
-/* kd_tetrad_look for a frame that falls and for light that moves inwards (radial <= 0). It is also valid at a horizon.
- * polar2: the square of p_theta, which may be negative where it is continued beyond the visible directions; `up` is
- * computed from the photon's own p_theta. kd_tetrad_look calls this function where it is needed. */
+/* kd_tetrad_look for a frame that falls and for light that moves inwards (radial <= 0). This function is also valid at
+ * a horizon. polar2: the square of p_theta, which may be negative where it is continued beyond the visible directions;
+ * `up` is computed from the photon's own p_theta. kd_tetrad_look calls this function where it is needed. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
 /* kd_tetrad_look for a frame that falls, from the components x = (1, m) of a photon in the rain frame. It is regular at

@@ -10,7 +10,7 @@
 #ifndef KD_PHYSICS_WAVES_INSPIRAL_H
 #define KD_PHYSICS_WAVES_INSPIRAL_H
 
-/* kd_inspiral_eta: eta = m1 m2/(m1 + m2)^2 for the mass ratio q = m2/m1 > 0. The next function: the chirp mass,
+/* kd_inspiral_eta: eta = m1 m2/(m1 + m2)^2 for the mass ratio q = m2/m1 > 0. The other function: the chirp mass,
  * eta^(3/5). */
 double kd_inspiral_eta(double q);
 double kd_inspiral_chirp_mass(double eta);
@@ -19,7 +19,8 @@ double kd_inspiral_chirp_mass(double eta);
  * e^4)/(1 - e^2)^(7/2). */
 double kd_inspiral_enhancement(double e);
 
-/* Averages over an orbit, in this order: radiated power [P 5.4], da/dt and de/dt [P 5.6, 5.7]. */
+/* Averages over an orbit. The functions give, in this order, the radiated power [P 5.4], da/dt [P 5.6] and de/dt [P
+ * 5.7]. */
 double kd_inspiral_power(double eta, double a, double e);
 double kd_inspiral_axis_rate(double eta, double a, double e);
 double kd_inspiral_eccentricity_rate(double eta, double a, double e);
@@ -37,7 +38,7 @@ double kd_inspiral_axis(double a0, double e0, double e);
 double kd_inspiral_time(double eta, double a, double e);
 
 /* kd_inspiral_frequency: frequency of the waves of a circular orbit, which is twice the orbital frequency, at the time
- * tau before coalescence [Maggiore 4.19]; NaN inside a = 6. The next function: frequency at the end of the chirp,
+ * tau before coalescence [Maggiore 4.19]; NaN inside a = 6. The other function: frequency at the end of the chirp,
  * 1/(6^(3/2) pi). */
 double kd_inspiral_frequency(double eta, double tau);
 double kd_inspiral_frequency_isco(void);

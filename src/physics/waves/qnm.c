@@ -28,7 +28,7 @@ static double complex fraction(const struct recurrence *r, int row, int terms, d
     return above - quadratic(r->alpha, row) * below;
 }
 
-/* Leaver's eq. 20 for c = a omega, sorted by powers of k. In it, k1 + k2 = max(|m|, 2). */
+/* Leaver's eq. 20 for c = a omega, sorted by powers of k. In this equation k1 + k2 = max(|m|, 2). */
 static struct recurrence angular(int m, double complex c, double complex separation)
 {
     double k1 = 0.5 * abs(m - S), k12 = k1 + 0.5 * abs(m + S);
@@ -71,7 +71,7 @@ static double complex radial_fraction(const struct problem *problem, const struc
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
     double complex p = -csqrt(-4 * I * b * omega);
     double complex c0 = r->alpha[0], c2 = r->gamma[1] + 3, q = 0.5 * (p * p + c2 - c0 - 3.5);
-    /* p and q make fewer terms sufficient than the tolerance alone would require; at most 1e5 are used */
+    /* because of p and q fewer terms suffice than the tolerance alone would require; at most 1e5 terms are used */
     double root = fmin(-0.75 * log(fmin(problem->tolerance, 1e-9)) / (-4 * creal(p)), 316);
     int terms = 50 + (int)(root * root);
     double k = problem->n + terms;
@@ -88,8 +88,8 @@ static double complex angular_at(struct problem *p, double complex separation)
 
 typedef double complex (*function)(struct problem *p, double complex x);
 
-/* The secant method from x and x + step. The size of the last step is the only estimate of the error. When steps are
- * below `settled`, the method continues until they stop shrinking, which happens early near a = 1. */
+/* The secant method from x and x + step. The only estimate of the error is the size of the last step. When steps are
+ * below `settled`, the method continues until they stop shrinking. Near a = 1 this happens early. */
 static const double settled = 1e-9;
 
 static bool solve(function f, struct problem *p, double complex *x, double complex step)
@@ -130,8 +130,8 @@ static bool improve(const struct kd_qnm_branch *branch, double a, double toleran
     return true;
 }
 
-/* Dolan & Ottewill 2009 (spin 2 in Schwarzschild): omega in inverse powers of L = l + 1/2, N = n + 1/2. Within
- * a tenth of the distance to the next overtone for n <= 3, l >= 2. */
+/* Dolan & Ottewill 2009 (spin 2 in Schwarzschild): omega in inverse powers of L = l + 1/2, N = n + 1/2. Its error is
+ * less than a tenth of the distance to the next overtone for n <= 3, l >= 2. */
 static double complex schwarzschild(int l, int n)
 {
     double inverse = 1 / (l + 0.5), N = n + 0.5, N2 = N * N, beta = 1 - S * S;

@@ -14,9 +14,9 @@
  * at a = 0. A spin a < 0 is that of the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode
  * rotates with the hole. The domain is 2 <= l <= 4, |m| <= l, 0 <= n <= 3 and |a| <= 0.9999, where fewer than 1e5 terms
  * suffice. Beyond this spin the damped and the undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013,
- * Phys. Rev. D 87, 041502), and l and n no longer identify them. Relative error of both, as complex numbers, measured
- * against another method (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond,
- * rounding leaves 1e-10 for the overtones of l = 4. */
+ * Phys. Rev. D 87, 041502), and l and n no longer identify them. Relative errors of omega and A, as complex numbers,
+ * measured against another method (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999;
+ * beyond, rounding leaves 1e-10 for the overtones of l = 4. */
 #ifndef KD_PHYSICS_WAVES_QNM_H
 #define KD_PHYSICS_WAVES_QNM_H
 
@@ -29,11 +29,12 @@ enum { KD_QNM_L_MIN = 2, KD_QNM_L_MAX = 4, KD_QNM_N_MAX = 3 };
 #define KD_QNM_SPIN_MAX 0.9999
 
 struct kd_qnm {
-    double complex omega;      /* omega, in units of 1/M */
-    double complex separation; /* A_lm, which has no unit */
+    double complex omega;      /* frequency omega, 1/M */
+    double complex separation; /* separation constant A_lm, a pure number */
 };
 
-/* A mode that is followed in spin. Moving to a nearby spin is cheap, 20 to 200 us, so use one branch for a whole curve.
+/* A mode that is followed in spin. Moving to a nearby spin is cheap, 20 to 200 us, so one branch should be used for a
+ * whole curve.
  */
 struct kd_qnm_branch {
     int l, m, n;

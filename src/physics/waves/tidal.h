@@ -20,8 +20,9 @@ double kd_tidal_radius(struct kd_tidal t);
 /* beta = r_t/r_p for a pericentre r_p. If it is above 1, the star is disrupted. */
 double kd_tidal_penetration(struct kd_tidal t, double pericentre);
 
-/* Half width of the debris' range of specific orbital energies, M R/r_t^2. It is fixed where the star passes r_t, and
- * does not depend on the pericentre [S]. Rees used r_p instead of r_t, which gives beta^2 times more. */
+/* Half width of the debris' range of specific orbital energies, M R/r_t^2. The width is determined where the star
+ * passes r_t, and does not depend on the pericentre [S]. Rees used r_p instead of r_t, which gives beta^2 times more.
+ * */
 double kd_tidal_energy_spread(struct kd_tidal t);
 
 /* Time after which the first debris returns: the Kepler period at the binding energy kd_tidal_energy_spread, 2 pi M/(2
