@@ -76,7 +76,8 @@ class Vulkan(Case):
                 problem = answer.json()
                 self.assertEqual((answer.status, problem["type"]), (503, "urn:kerrd:problem:out-of-memory"), problem)
                 self.assertIn("vk" + name, problem["detail"])
-        self.assertGreater(len(told), 12, told)
+        # The server does not wait for a submission that has ended by the time it looks.
+        self.assertGreater(len(told.keys() - {"WaitSemaphores"}), 11, told)
         self.faults.disarm()
         same = wanted(server.get(RENDER)).body
         for n, name in enumerate(("QueueSubmit", "GetSemaphoreCounterValue")):
