@@ -20,8 +20,8 @@ static const struct seer {
     double spin, inclination, r;
     struct kd_observer_motion motion;
     double
-        /* energies of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or computed by hand
-         * */
+        /* energies of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or computed by
+         * hand */
         energy;
     double momentum;
 } seers[] = {
@@ -226,8 +226,8 @@ static double twist(const struct seer *seer)
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors divided by the map's amplification. A ray is unsure if a small shift changes its end or number of crossings.
- * */
+/* Errors divided by the map's amplification. A ray is unsure if a small shift changes its end or number of
+ * crossings. */
 static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
 {
     const struct ks_place at = place_of(seer);
@@ -292,9 +292,9 @@ static void maps(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Angular radius of the dark disk that an observer falling from rest at infinity ("rain") sees in Schwarzschild's
- * metric: b = r sin/(1 - cos sqrt(2/r)) = sqrt(27), a quadratic equation for the tangent of half the angle. One root is
- * for light moving inwards at the photon orbits, the other for light moving outwards. */
+/* Angular radius x of the dark disk that an observer falling from rest at infinity ("rain") sees in Schwarzschild's
+ * metric: b = r sin x/(1 - sqrt(2/r) cos x) = sqrt(27), a quadratic equation for tan(x/2). One root is for light moving
+ * inwards at the photon orbits, the other for light moving outwards. */
 static double dark_angle(double r)
 {
     double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));

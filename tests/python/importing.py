@@ -120,8 +120,8 @@ class Blacklight(Files):
         )
 
     def test_the_tests_of_gold_are_the_presets(self):
-        """Each field that affects light equals that of the preset, except what the file states differently: 6e11 cm,
-        and the frequency at 1000 M."""
+        """Each field that affects light equals that of the preset. Exceptions are the values that the file states
+        differently: 6e11 cm, and the frequency at 1000 M."""
         with kerrd.local(binary=KERRD) as hole:
             for test in GOLD:
                 preset = whole(hole, preset=f"gold-{test}")
@@ -1037,17 +1037,19 @@ class Kerr(unittest.TestCase):
             self.assertAlmostEqual(kerr.efficiency(a), share, 4)
 
     def test_received(self):
-        """At rest, at any spin: the square root of -g_tt. Falling from rest at infinity: 1/(1 + sqrt(2/r)) at a = 0."""
+        """The frequency at infinity over that at the observer, for outgoing light. For an observer at rest this ratio
+        is the square root of -g_tt, at any spin. For a fall from rest at infinity it is 1 - sqrt(2/r) at a = 0."""
         for a, r, theta in ((0, 10, 1), (0.9, 5, 0.3), (0.9, 1000, 1.1)):
             sigma = r * r + (a * math.cos(theta)) ** 2
             h = 2 * r / sigma
-            # u^r = 0 for the velocity h/sqrt(1 + h) u^t past the normal observer; u^t = 1/sqrt(1 - h).
+            # At rest u^r = 0: the radial component of the velocity relative to the normal observer is h/(1 + h) u^t,
+            # with u^t = 1/sqrt(1 - h).
             rest = kerr.received(a, r, theta, (h / (1 + h) / math.sqrt(1 - h), 0, 0), (1, 0, 0))
             self.assertAlmostEqual(rest.infinity, math.sqrt(1 - h), 9)
             self.assertTrue(rest.still)
         r = 50
         h = 2 / r
-        # e = 1: u^r = -sqrt(2/r), u^t = 1/(1 - h) - h/(1 - h) sqrt(h) in Kerr-Schild time.
+        # A fall with energy 1 has u^r = -sqrt(2/r), and u^t = 1/(1 - h) - h/(1 - h) sqrt(h) in Kerr-Schild time.
         ut = (1 - h * math.sqrt(h)) / (1 - h)
         falling = kerr.received(0, r, 1, (-math.sqrt(h) + h / (1 + h) * ut, 0, 0), (1, 0, 0))
         self.assertAlmostEqual(falling.velocity[0], -math.sqrt(h), 9)

@@ -23,10 +23,11 @@ static void close_to(const char *what, double a, double e, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* The losses by the third derivatives of the quadrupole moments. Differences would be noisy. The equation of motion x''
- * = -x/r^3 gives the derivatives exactly: d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i x_j, and d2(x_i
- * x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are subtracted. */
-struct loss { double energy, momentum; /* d/dt, for eta = 1 */ };
+/* The losses of energy and angular momentum, computed from the third derivatives of the quadrupole moments. Finite
+ * differences would be noisy. The equation of motion x'' = -x/r^3 gives the derivatives exactly: d3(x_i x_j) =
+ * -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i x_j, and d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are
+ * subtracted. */
+struct loss { double energy, momentum; /* losses per time, for eta = 1 */ };
 
 static struct loss radiated(double a, double e)
 {
@@ -51,7 +52,7 @@ static struct loss radiated(double a, double e)
                 power += d3[i][j] * d3[i][j];
         for (int i = 0; i < 3; i++)
             torque += d2[0][i] * d3[1][i] - d2[1][i] * d3[0][i];
-        sum.energy += power / 5 * r / a / POINTS; /* dt ~ r du */
+        sum.energy += power / 5 * r / a / POINTS; /* dt is proportional to r du */
         sum.momentum += 2.0 / 5 * torque * r / a / POINTS;
     }
     return sum;
@@ -101,7 +102,8 @@ static void limits(void **state)
     }
 }
 
-/* Along a(e) the remaining time decreases at the rate that da/dt gives. Its slope is a difference of second order. */
+/* Along a(e) the remaining time decreases at the rate that da/dt gives. Slopes are central differences of second
+ * order. */
 static void axis_and_time_agree(void **state)
 {
     (void)state;
@@ -117,10 +119,11 @@ static void axis_and_time_agree(void **state)
     assert_true(kd_inspiral_axis(a0, e0, e0) == a0 && kd_inspiral_axis(a0, e0, 0) == 0);
 }
 
-/* PSR B1913+16 as Weisberg, Nice & Taylor 2010, ApJ 722, 1030, table 2 give it: masses 1.4398 and 1.3886, P =
- * 0.322997448911 d, e = 0.6171334, and from them -2.402531e-12 +- 14. "300 million years" to the merger: Taylor &
- * Weisberg 1989. The double pulsar: Kramer et al. 2006, Science 314, 97: 1.3381 and 1.2489, 0.10225156248 d,
- * 0.0877775, 1.24787e-12 (13) and 85 Myr. */
+/* PSR B1913+16, by Weisberg, Nice & Taylor 2010, ApJ 722, 1030, table 2: 1.4398 and 1.3886 solar masses, period
+ * 0.322997448911 d, e = 0.6171334. From these they compute dP/dt = -2.402531e-12 +- 14 in the last digits. Taylor &
+ * Weisberg 1989 give "300 million years" until the merger. The double pulsar, by Kramer et al. 2006, Science 314, 97:
+ * 1.3381 and 1.2489 solar masses, period 0.10225156248 d, e = 0.0877775, dP/dt of 1.24787e-12 (13) in size, and 85 Myr
+ * until the merger. */
 static void pulsars(void **state)
 {
     (void)state;
@@ -138,9 +141,9 @@ static void pulsars(void **state)
     }
 }
 
-/* The chirp obeys f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3). Known numbers: 4.4 kHz for the last stable orbit of one solar
- * mass; 134 Hz one second before the end for 1.21 solar masses (Maggiore 4.20). The latter is 2.8 % more than Kepler's
- * law gives for the wave of a circle at that time. */
+/* The chirp obeys f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3). Known frequencies: 4.4 kHz at the last stable orbit for a total
+ * of one solar mass; 134 Hz one second before the end for a chirp mass of 1.21 solar masses (Maggiore 4.20). The latter
+ * is 2.8 % more than Kepler's law gives for the wave of a circle at that time. */
 static void chirp(void **state)
 {
     (void)state;
@@ -152,8 +155,9 @@ static void chirp(void **state)
             close_to("df/dt", tau, 0, slope, want, 1e-5);
             double a = pow(M_PI * f, -2.0 / 3);
             close_to("tau", a, 0, kd_inspiral_time(eta, a, 0), tau, 1e-13);
-            /* Isaacson's flux, face-on 2 (pi f h)^2/(32 pi) for each of h+ and hx. The factor (1 + c^2)^2/4 + c^2 is 2
-             * face-on and has the mean 4/5 over all directions */
+            /* Isaacson's flux of a wave seen face-on: each of h+ and hx has the mean flux (2 pi f h)^2/(32 pi). The
+             * flux depends on the inclination by (1 + c^2)^2/4 + c^2, with its cosine c. This factor is 2 face-on, and
+             * its mean over all directions is 4/5 */
             double strain = kd_inspiral_strain(eta, f, 1e9),
                    flux = pow(2 * M_PI * f * strain, 2) / (32 * M_PI) * 2 * 0.4;
             close_to("power", a, 0, flux * 4 * M_PI * 1e18, kd_inspiral_power(eta, a, 0), 1e-12);

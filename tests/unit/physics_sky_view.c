@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #define RADIAN (M_PI / 180)
-#define HORIZON 1.4358898943540673 /* for a = 0.9 */
+#define HORIZON 1.4358898943540673 /* radius of the horizon at a = 0.9 */
 #define FALL .fall_from = INFINITY, .fall_energy = INFINITY
 
 /* energy and momentum of infalling or orbiting observers, by Bardeen, Press & Teukolsky or computed by hand. */
@@ -78,7 +78,7 @@ static struct ks_frame frame_of(const struct seer *s)
     double u[4] = { 0 };
     if (s->energy > 0)
         ks_inwards(&at, 1, s->energy, s->momentum, 0, u);
-    else if (s->motion.observer == KD_OBSERVER_STATIC) { /* the observer of velocity along d/dt, by the line element */
+    else if (s->motion.observer == KD_OBSERVER_STATIC) { /* this observer's velocity is along d/dt */
         double c = cos(at.theta), f = (2 * s->r - s->charge * s->charge) / (s->r * s->r + s->spin * s->spin * c * c),
                lapse = sqrt(1 - f);
         u[0] = -lapse, u[1] = f / lapse, u[3] = -f * s->spin * sin(at.theta) * sin(at.theta) / lapse;
@@ -207,8 +207,8 @@ static void extremes(void **state)
     }
 }
 
-/* The dark disk in Schwarzschild. For rain r sin = b (1 - cos sqrt(2/r)), b = sqrt(27), which is a quadratic equation
- * for the tangent of half the angle. For an observer at rest sin = b sqrt(1 - 2/r)/r (Synge 1966). */
+/* The angular radius x of the dark disk in Schwarzschild, with b = sqrt(27). For rain r sin x = b (1 - sqrt(2/r) cos
+ * x), a quadratic equation for tan(x/2). For an observer at rest sin x = b sqrt(1 - 2/r)/r (Synge 1966). */
 static void round_disks(void **state)
 {
     (void)state;

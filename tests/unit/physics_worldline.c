@@ -221,8 +221,8 @@ static void others_stay_and_go_round(void **state)
 }
 
 /* Falls with E = 1 and L = 2/a next to the inner horizon of fast holes. The reference is a quadrature in 40 digits of
- * the same doubles. P vanishes at r = 1, and its size is about the distance between the horizons. Its absolute error is
- * 4e-16. The bound is 100 times the ratio of the two. */
+ * the same doubles. P = r^2 + a^2 - 2 almost vanishes at r = 1. Its size elsewhere is about the distance between the
+ * horizons, and its absolute error is 4e-16. The bound is 100 times the ratio of this error to this size. */
 static void falls_between_horizons_that_almost_coincide(void **state)
 {
     (void)state;

@@ -229,9 +229,9 @@ static void fall(void **state)
     published("rain into Kerr", ASK("infall", "proper_time_to_end", "spin=0.9", "r=3"), rain, 1e-10);
 }
 
-/* The sky that rain sees in Schwarzschild. Light from behind is as above. Light from the side, with L = 0 and p^r = 0
- * in rain's frame, is unshifted. At the horizon the dark disk has the radius 2 atan(2/sqrt(27)), with E = 1/(1 - cos
- * sqrt(2/r)) at its edge. */
+/* The sky that rain sees in Schwarzschild. Light from behind is shifted as in the test of Painleve-Gullstrand
+ * coordinates. Light from the side, with L = 0 and p^r = 0 in rain's frame, is unshifted. At the horizon the dark disk
+ * has the angular radius x = 2 atan(2/sqrt(27)), and light at its edge has E = 1/(1 - sqrt(2/r) cos x). */
 static void sky_of_rain(void **state)
 {
     (void)state;

@@ -28,8 +28,8 @@ static enum kd_status keep(void *user, const struct kd_star_image *image)
     return KD_OK;
 }
 
-/* A pinhole camera that looks along x, y to the left, z upwards, `wide` is the tangent of the angle from the middle to
- * the edge; side -1 mirrors the picture. */
+/* A pinhole camera that looks along x, with y to the left and z upwards. wide: angle from the middle to the edge. side:
+ * -1 mirrors the picture. */
 static struct kd_vec seen_at(double x, double y, double wide, int side)
 {
     const double unit = tan(wide) / (WIDTH / 2.0), right = side * (x - WIDTH / 2.0) * unit,
@@ -54,9 +54,9 @@ static struct kd_sky_map map_of(const struct sky *sky)
     return (struct kd_sky_map) { .width = WIDTH, .height = HEIGHT, .coarse = 0.15, .of = sky, .row = row_of };
 }
 
-/* Each star in the picture has one image, at the place that the camera gives. It has the pixel's own solid angle, cos^3
- * over the square of the distance. Left stays left unless the camera mirrors. If the observer circles the hole, the
- * star of an image is found after the rotation is undone. */
+/* Each star in the picture has one image, at the place that the camera gives. The image has the solid angle of its
+ * pixel: cos^3 over the square of the distance. Left stays left unless the camera mirrors. If the observer circles the
+ * hole, the star of an image is found after the rotation is undone. */
 static void a_plain_camera(void **state)
 {
     (void)state;

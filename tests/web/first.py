@@ -183,7 +183,7 @@ class First(Browser):
         self.assertEqual(page.locator("#first").is_visible(), False)
         rates = lambda: [p["motion"]["time_rate"] for _, p in patches if "time_rate" in p.get("motion", {})]
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or rates()))
-        self.assertEqual(rates(), [0], "the session rests meanwhile")
+        self.assertEqual(set(rates()), {0}, "the session rests meanwhile")
         self.assertTrue(daemon.eventually(lambda: self.clock(page) > 12))
         self.linked(page, "camera.azimuth_deg=")
         self.assertEqual(page.inner_text("#play"), "Pause")

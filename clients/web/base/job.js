@@ -2,31 +2,14 @@
 import { duration, number, t, tell } from '../words/i18n.js';
 import { remaining } from './remaining.js';
 import { ask, getJson, passes, postJson } from './server.js';
+import { stored } from './stored.js';
 
 const poll_ms = 300;
 const again_ms = 3000;
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// The job { id, token, … } in sessionStorage. If storage is blocked, a reload loses track of it.
-function memory(key) {
-  return {
-    read() {
-      try {
-        return JSON.parse(sessionStorage.getItem(key));
-      } catch {
-        return null;
-      }
-    },
-    write(job) {
-      try {
-        job ? sessionStorage.setItem(key, JSON.stringify(job)) : sessionStorage.removeItem(key);
-      } catch {}
-    },
-  };
-}
-
-export const remembered = key => Boolean(memory(key).read()?.id);
+export const remembered = key => Boolean(stored(key).read()?.id);
 
 // key: key of the entry in sessionStorage. starts: buttons that are disabled while a job runs. cancel: the button that
 // cancels the job. bar: the progress bar. told, fault: elements that show messages and errors. words: { done,
@@ -34,7 +17,7 @@ export const remembered = key => Boolean(memory(key).read()?.id);
 // at each poll and may return a promise. Returns { begin(request, about), resume() }. request() returns the document
 // that is sent to POST /v1/jobs. about is stored with the job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
-  const kept = memory(key);
+  const kept = stored(key); // the job { id, token, … }
   let job = null,
     left = remaining();
 

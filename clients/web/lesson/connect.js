@@ -1,44 +1,28 @@
 // The lesson of this page on the server: it is opened, changed one request at a time, and deleted.
 import { ask } from '../base/server.js';
+import { stored } from '../base/stored.js';
 
-// If the browser blocks the storage, the lesson ends when the page is closed.
-export const memory = {
-  get: () => {
-    try {
-      return JSON.parse(sessionStorage.getItem('lesson'));
-    } catch {
-      return null;
-    }
-  },
-  set: value => {
-    try {
-      value ? sessionStorage.setItem('lesson', JSON.stringify(value)) : sessionStorage.removeItem('lesson');
-    } catch {}
-  },
-};
+export const memory = stored('lesson'); // the lesson { id, token } of this page
 
 // present(): the fields of a lesson that describe the page now. opened(id): is called when the server has opened the
 // lesson. show(state): is called with each state of the lesson that the server returns. A lesson from before a reload
 // continues.
 export function connect(present, { opened, show }) {
-  let lesson = memory.get(),
+  let lesson = memory.read(),
     sent = {}, // session, link and words that this page has sent last
     turn = Promise.resolve(), // the previous request
     ended = false;
 
-  const headers = () => ({
-    'Content-Type': 'application/json',
-    ...(lesson && { Authorization: `Bearer ${lesson.token}` }),
-  });
-  const send = async (method, body) =>
-    (
-      await ask('v1/lessons' + (lesson ? '/' + lesson.id : ''), {
-        method,
-        headers: headers(),
-        ...(body && { body: JSON.stringify(body) }),
-      })
-    ).json();
-  const deleteLesson = () => ask('v1/lessons/' + lesson.id, { method: 'DELETE', headers: headers() }).catch(() => {});
+  const send = (method, body) =>
+    ask('v1/lessons' + (lesson ? '/' + lesson.id : ''), {
+      method,
+      headers: {
+        'Content-Type': 'application/json',
+        ...(lesson && { Authorization: `Bearer ${lesson.token}` }),
+      },
+      ...(body && { body: JSON.stringify(body) }),
+    });
+  const deleteLesson = () => send('DELETE').catch(() => {});
 
   async function exchange(more) {
     if (ended) return;
@@ -46,11 +30,12 @@ export function connect(present, { opened, show }) {
     const news = Object.entries(present()).filter(([name, value]) => value != null && sent[name] !== value),
       fresh = { ...Object.fromEntries(news), ...more },
       opens = !lesson;
-    const state = Object.keys(fresh).length || opens ? await send(opens ? 'POST' : 'PATCH', fresh) : await send('GET');
+    const method = opens ? 'POST' : Object.keys(fresh).length ? 'PATCH' : 'GET',
+      state = await (await send(method, method === 'GET' ? null : fresh)).json();
     if (opens) lesson = { id: state.id, token: state.token };
     if (ended) return void (opens && deleteLesson());
     if (opens) {
-      memory.set(lesson);
+      memory.write(lesson);
       opened(lesson.id);
     }
     Object.assign(sent, Object.fromEntries(news));
@@ -73,11 +58,11 @@ export function connect(present, { opened, show }) {
     lose() {
       lesson = null;
       sent = {};
-      memory.set(null);
+      memory.write(null);
     },
     end() {
       ended = true;
-      memory.set(null);
+      memory.write(null);
       if (lesson) deleteLesson();
     },
   };

@@ -31,7 +31,7 @@ export function teach(scene, session, begins) {
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('lesson.css', import.meta.url) }));
   const from = link.get('lesson');
   if (begins) link.set('lesson', null);
-  else if (from && !memory.get()) return wayBack(from);
+  else if (from && !memory.read()) return wayBack(from);
   section ? section.querySelector('h2').focus() : (section = panel(scene, session));
 }
 
@@ -90,8 +90,7 @@ function panel(scene, session) {
       },
       show,
     });
-  let timer = 0,
-    ended = false;
+  let timer = 0;
   byId('panel').prepend(box);
   title.focus({ preventScroll: true });
 
@@ -126,7 +125,7 @@ function panel(scene, session) {
         if (!lesson.id && [403, 422].includes(error.status)) return;
       } // any other error means that the session has just ended; the page opens another session
     }
-    if (!ended) timer = setTimeout(beat, beat_ms);
+    if (box.isConnected) timer = setTimeout(beat, beat_ms);
   }
 
   async function act(fields) {
@@ -140,7 +139,6 @@ function panel(scene, session) {
   }
 
   function end() {
-    ended = true;
     clearTimeout(timer);
     lesson.end();
     redraw();

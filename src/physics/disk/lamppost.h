@@ -15,8 +15,7 @@ struct kd_lamppost {
 };
 
 /* Makes the table for radii from inner, which is the ISCO or larger, to outer. height: height of the source, which must
- * be beyond the horizon. Returns false if light does not reach a ring. No such
- * case is known. */
+ * be beyond the horizon. Returns false if light does not reach a ring. No such case is known. */
 bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, double height, double photon_index,
                       double inner, double outer);
 

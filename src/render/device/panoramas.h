@@ -16,7 +16,7 @@ struct kd_panorama {
     uint32_t columns, rows;     /* columns and rows of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
     uint64_t used;              /* value of a counter at the last use */
-    bool shown;                 /* true if the panorama was delivered to a request */
+    bool shown;                 /* true if it was delivered to a request, or read in advance */
 };
 enum { KD_PANORAMAS = 3 };
 

@@ -26,7 +26,7 @@ enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_sce
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan_light *light, const struct kd_capacity *capacity,
                           struct kd_error *error);
-/* Prepares one emitter that has buffers, with a separate working set, for requests other than frames. */
+/* Sets *out to the renderer's own state of one emitter that has buffers, for requests other than frames. */
 enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number,
                                 struct kd_emitter_buffers_work *out, struct kd_error *error);
 /* Lists the buffers for the kernels of light, by number. Buffers of emitters that the scene does not have are NULL. */

@@ -66,8 +66,8 @@ void kd_renderer_assets_stop(struct kd_renderer *renderer);
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
 /* One line such as "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
-/* The device part and the driver part of kd_renderer_device_name. Any thread. */
 const char *kd_renderer_type_name(size_t i); /* name of the i-th type of devices; NULL after the last */
+/* The device part and the driver part of kd_renderer_device_name. Any thread. */
 const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
 /* Bytes of device memory in the renderer's buffers after the last frame. Any thread. */

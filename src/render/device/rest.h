@@ -29,8 +29,8 @@ enum kd_cache_kind {
  * necessary because lavapipe keeps some memory of each kernel that it has ever compiled: an LLVM context is never
  * emptied. */
 #define KD_REST_BYTES (256ull << 20)
-/* above this limit, memory is freed at any moment without work (server/render/rest.c); KD_REST_BYTES is the limit
- * after that */
+/* If the sum exceeds this limit, memory is freed after a sixtieth of the usual pause without work
+ * (server/render/rest.c). */
 #define KD_REST_SOON_BYTES (768ull << 20)
 
 /* The label of a kind; NULL after the last. */

@@ -151,7 +151,7 @@ uint32_t kd_disk_traits(const struct kd_scene *scene);
 /* Quantities of the lens map that an emitter needs if it emits light as the disk does. If rays are not on a grid,
  * Carter's Q is computed from the ray's slope. */
 uint32_t kd_disk_needs(const struct kd_scene *scene);
-/* kd_disk_reach: radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO
+/* kd_disk_reach: radii of the smooth disk's edges. kd_disk_tell: writes a sentence such as "A thin disk from the ISCO
  * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);

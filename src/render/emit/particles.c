@@ -88,8 +88,9 @@ static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene
     return (uint32_t)fmin(radii, g->count - g->plunging);
 }
 
-/* Bytes of one buffer that holds the guiding orbits, the expected numbers of the grid's rows, and the expected
- * numbers of the plunge's rows. Each of the three begins at a multiple of 256 bytes. */
+/* Sizes in bytes. kd_particle_tables_bytes: of the buffer that holds the guiding orbits, the expected numbers of the
+ * grid's rows, and the expected numbers of the plunge's rows. Each of the three begins at a multiple of 256 bytes.
+ * kd_particle_guides_bytes: of the first of the three. */
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g)
 {
     return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256;

@@ -88,7 +88,7 @@ static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel,
                           constants, n, out, j->error);
 }
 
-/* Dispatches a slice of rows. If `all` is true, dispatches all remaining rows. */
+/* Dispatches a slice of rows. all: true if the slice has all rows; it is then not submitted by itself. */
 static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
 {
     enum kd_status status;

@@ -408,7 +408,8 @@ done:
     return status;
 }
 
-/* Lights a band slice by slice, so that a long picture can be previewed. ns: time of a ray. */
+/* Lights a band slice by slice, so that a long picture can be previewed. light_ns: time in ns for
+ * the light of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double light_ns)
 {
     const struct kd_plan *p = j->plan;

@@ -15,7 +15,7 @@ struct kd_parted {
     void *user;
 };
 
-/* kd_plan_is_parted: true if a plan consists of parts. kd_render_parts: renders such a plan into *out, the whole
+/* kd_plan_is_parted: true if a plan consists of parts. kd_frame_parted: renders such a plan into *out, the whole
  * picture. In a pair the left eye's picture is on the left, and both pictures have the left eye's exposure. */
 static inline bool kd_plan_is_parted(const struct kd_plan_picture *picture)
 {

@@ -48,8 +48,8 @@ done:
     return status;
 }
 
-/* Traces the undecided rays, and uploads the results to their places. words: the buffer, which begins with the
- * indices and continues with the planes. */
+/* Traces the undecided rays, and uploads the results to their places. host: buffer for the upload. It begins with
+ * the indices and continues with the planes. */
 static enum kd_status follow(struct kd_frame_job *j, const struct open_rays *open, const char *pass,
                              struct kd_vk_buffer *host, struct kd_vk_buffer *device)
 {

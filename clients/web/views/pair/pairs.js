@@ -53,20 +53,20 @@ const same = (values, side) =>
 
 // The index of the ready pair whose right side has exactly the values in other.over; -1 if there is none.
 export const readyIndex = other =>
-  ready.findIndex(({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other));
+  ready.findIndex(
+    ({ right }) =>
+      Object.keys(right).length === Object.keys(other.over).length &&
+      Object.keys(right).every(path => path in other.over) &&
+      same(right, other),
+  );
 
 // The labels of both sides.
 export function captionsOf(scene, other) {
-  const found = ready.find(
-    ({ words, left, right }) =>
-      words && Object.keys(other.over).length === Object.keys(right).length && same(left, scene) && same(right, other),
-  );
-  return (
-    found?.words ??
-    [scene, other].map(side =>
-      Object.keys(other.over)
-        .map(path => `${named(path).label} ${value(scene.fields.get(path), side.get(path))}`)
-        .join(', '),
-    )
+  const found = ready[readyIndex(other)];
+  if (found?.words && same(found.left, scene)) return found.words;
+  return [scene, other].map(side =>
+    Object.keys(other.over)
+      .map(path => `${named(path).label} ${value(scene.fields.get(path), side.get(path))}`)
+      .join(', '),
   );
 }
