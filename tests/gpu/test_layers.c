@@ -619,13 +619,17 @@ static void test_each_is_a_picture(void **state)
     (void)state;
     for (int turns = 0; turns < 2; turns++)
         for (int kind = 1; kind < KD_LAYER_COUNT; kind++) {
+            /* These layers exist only for matter at a radio frequency. One spin is enough for them: each of their
+             * pictures takes seconds. */
+            const bool radio = kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
+                               kind == KD_LAYER_jy_per_pixel || kind == KD_LAYER_stokes_v;
+            if (radio && !turns)
+                continue;
             uint8_t *with = NULL;
             for (int legend = 1; legend >= 0; legend--) {
                 struct kd_scene scene = scene_of(turns ? 0.9 : 0, 75, INFINITY, kd_layer_kinds[kind].name);
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
-                if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
-                    kind == KD_LAYER_jy_per_pixel ||
-                    kind == KD_LAYER_stokes_v) { /* these layers exist only for matter at a radio frequency */
+                if (radio) {
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
                     scene.polarization.model =

@@ -74,6 +74,7 @@ class Living(Browser):
         page.wait_for_selector(FINE)
         before = self.pixels(page)
         page.click("#new-seed")
+        self.assertTrue(daemon.eventually(lambda: self.pixels(page) != before))
         page.wait_for_selector(FINE)
         other = self.pixels(page)
         self.assertNotEqual(other, before)

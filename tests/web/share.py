@@ -80,7 +80,9 @@ class Share(Browser):
         other.wait_for_selector("#stage[data-final=true]")
         self.assertEqual(self.scene(other), self.scene(page))
         other.go_back()
-        self.assertEqual(other.url, "about:blank", "the page of the link is no stop on the way back")
+        self.assertTrue(
+            daemon.eventually(lambda: other.url == "about:blank"), "the page of the link is no stop on the way back"
+        )
 
     def test_the_width_of_the_window_is_not_sent(self):
         """A window lower than 16:9 widens the field of view by itself. The link has the field of view of the preset."""

@@ -1,5 +1,5 @@
-// An object with an id, in sessionStorage: it survives a reload of the page. If the browser blocks the storage, a reload
-// loses the object.
+// An object with an id, in sessionStorage: it survives a reload of the page. If the browser blocks the storage, the
+// object is lost by a reload.
 export function stored(key) {
   return {
     read() {

@@ -93,7 +93,12 @@ export function buildLiving(stage, scene, source) {
 
   play.addEventListener('click', toggle);
   seed.addEventListener('click', () =>
-    scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))),
+    // a seed from 1 to 1000 that differs from the present one
+    scene.change(
+      Object.fromEntries(
+        seeds(scene).map(path => [path, ((scene.get(path) + Math.floor(Math.random() * 999)) % 1000) + 1]),
+      ),
+    ),
   );
   // A struck hole rings only while time runs.
   strike.addEventListener('click', () => {
