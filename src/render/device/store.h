@@ -59,7 +59,7 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
-    /* the layers of numbers in sequence, kd_plan_layer_bytes each; no buffers: no frame had layers */
+    /* the layers of numbers, one after the other, of kd_plan_layer_bytes each; no buffers: no frame had layers */
     struct kd_bands layers;
     /* packed pixels of one band: `words` on the device, `readback` on the host */
     struct kd_vk_buffer *words, *readback;

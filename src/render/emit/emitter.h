@@ -1,6 +1,6 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
- * shaders/shared/emitters.h; each emitter has a file of its own. Plan, needs of the lens map, motion, device data and
- * approximations iterate over the table, and their code names no emitter.
+ * shaders/shared/emitters.h; each emitter has a file of its own. The code for plans, for needs of the lens map, for
+ * motion, for device data and for approximations iterates over the table and names no emitter.
  *
  * To add an emitter, write its line in that table, and its section in the field table. Write shaders/emit/NAME.glsl,
  * and src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid
@@ -99,8 +99,9 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 /* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. Call this for a device that reads the
  * buffer as texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* Needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The functions after it are true if there
- * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
+/* Needs of the scene's emitters. kd_emit_needs: quantities of the lens map. kd_emit_at_crossings: true if there is
+ * light at crossings of the plane. kd_emit_at_ends: at the ends of rays. kd_emit_separate_photometry: with a luminance
+ * of its own. kd_emit_points: from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene); /* true if there are volumes */

@@ -15,8 +15,8 @@
 
 #define NEVER -1e6 /* log2 of zero */
 #define COLD -24.0 /* log2 of k T/(m_e c^2) below which no fit is valid: 354 K */
-/* The log2 of the density of an empty node is lower than that of the densest node by this number, so that the light
- * falls to nothing within a cell. */
+/* The log2 of the density of an empty node is lower than that of the densest node by at least this number, so that the
+ * light falls to nothing within a cell. */
 #define EMPTY 40.0
 #define EVEN 1e-3 /* tolerance for the even spacing of rows, as a fraction of a step */
 /* tolerance for the even spacing of times, as a fraction of a step. The tolerance is larger than EVEN, because

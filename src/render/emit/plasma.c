@@ -84,7 +84,7 @@ static double knot(const struct kd_scene *scene)
 }
 
 /* Number of nodes of the scene's grid. If the grid's file has not been found yet, returns the largest number of nodes
- * that are not packed. */
+ * of a grid that is not packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->matter.nodes ? scene->matter.nodes : KD_MATTER_WHOLE;

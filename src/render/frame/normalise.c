@@ -9,9 +9,10 @@
 
 /* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
-/* upper bound of the relative difference between the fluxes of a picture of 48 pixels and one of 128 */
+/* relative error of the flux at which the search with 48 pixels ends: the flux of a picture of 128 pixels differs from
+ * that of 48 by no more */
 #define NEAR 1e-3
-/* relative error of the flux at which the search ends; a sum of floats is accurate to 1e-6 */
+/* relative error of the flux at which the search with 128 pixels ends; a sum of floats is accurate to 1e-6 */
 #define HELD 5e-5
 /* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field. The field grows at least as
  * the square root of the density, so the slope is at least 1.5. */
@@ -145,7 +146,7 @@ done:
 }
 
 /* Reduces the scene to the parts that determine the flux. For a series of grids, the time is set to the middle of the
- * series, so that one density serves all times. */
+ * series, so that one density serves all times. For other matter seen from infinity, the time is 0. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
