@@ -38,10 +38,10 @@ struct kd_asset_reader {
     pthread_cond_t changed;
     struct kd_asset_request asked[KD_ASSET_REQUESTS]; /* requests, oldest first; the first one is in progress */
     unsigned n_asked;
-    bool runs;                  /* true while a thread serves the queue: its own, or a caller of kd_asset_reader_wait */
+    bool runs; /* true while a thread serves the queue: its own, or a caller of kd_asset_reader_wait */
     /* name of the last failed request that was not `ahead`; "": none, or it may be tried again */
     char broken[KD_ASSET_NAME];
-    bool invalid;               /* true if `broken` failed because its asset is invalid */
+    bool invalid; /* true if `broken` failed because its asset is invalid */
     struct kd_error why;
     const struct kd_asset_maker *maker;
     void *owner;

@@ -43,8 +43,8 @@ struct kd_renderer {
     struct kd_prepared prepared;
     struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
     uint64_t backgrounds_used;
-    /* reused for the next list of rays (rays/device.c): buffers for the list and for its results, and a buffer on the
-     * host for both */
+    /* two sets of buffers, reused for the next list of rays (rays/device.c). A set has the rays in a buffer that the
+     * host writes, their ends on the device, and their ends on the host */
     struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
         enum kd_engine engine;

@@ -93,7 +93,7 @@ static void give_back(struct kd_renderer *r)
 
 /* Closes the device and reopens it. Memory that is still resident afterwards no longer counts in kd_renderer_kept_sum,
  * so that the device is not reopened again because of it. The latest kernels are made again, in a third of a second on
- * two cores, so that the next picture of the same view does not wait for them. */
+ * two cores. So the next picture of the same view does not wait for them. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     _Static_assert(KD_REST_KERNELS <= KD_KERNEL_WISHES, "all kernels that are kept are made again");

@@ -37,8 +37,8 @@ void kd_illumination_body(const struct kd_illumination *lit, const struct kd_see
 
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. A body is left out if
- * it has no size, if one of its numbers is out of range, or if its r is less than KD_BODIES_CLEAR times the
+/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. A body is left out in
+ * three cases: it has no size, one of its numbers is out of range, or its r is less than KD_BODIES_CLEAR times the
  * horizon's. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);

@@ -1,6 +1,6 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
- * shaders/shared/emitters.h; each emitter has a file of its own. The code for plans, for needs of the lens map, for
- * motion, for device data and for approximations iterates over the table and names no emitter.
+ * shaders/shared/emitters.h; each emitter has a file of its own. Five parts of the program iterate over the table and
+ * name no emitter: plans, needs of the lens map, motion, device data and approximations.
  *
  * To add an emitter, write its line in that table, and its section in the field table. Write shaders/emit/NAME.glsl,
  * and src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid
@@ -46,9 +46,9 @@ struct kd_emitter {
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
     /* flags of enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
-    /* The emitter's own device buffers, their size in bytes, and the number of invocations of the pass that fills
-     * them (KD_PASS_name of its GLSL file). This pass runs before light is computed. NULL: the emitter has no
-     * buffers. If only `invocations` is NULL, the host fills the buffers. */
+    /* own: the emitter's own device buffers. device_bytes: their size. invocations: number of invocations of the pass
+     * that fills them (KD_PASS_name of its GLSL file) before light is computed. NULL: the emitter has no buffers. If
+     * only `invocations` is NULL, the host fills the buffers. */
     const struct kd_emitter_buffers *own;
     uint32_t quads; /* traits with which the emitter reads a buffer of quads; 0: it never reads one */
     uint64_t (*device_bytes)(const struct kd_scene *scene);

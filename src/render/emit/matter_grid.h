@@ -55,9 +55,9 @@ struct kd_matter_grid {
      * c^2), u^r, r u^theta, u_phi/(r sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by
      * `field`. These numbers vary little from node to node and are finite on the axis. */
     float *nodes;
-    /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in the
-     * order above, namely u divided by `speed` and b times KD_MATTER_FIELD. Theta is k T/(m_e c^2). least and range:
-     * least value and range of log2 of density and of Theta. */
+    /* A packed node has four words. The first has density and Theta as fractions of their ranges, in 16 bits each. The
+     * others have six halves in the order above: u divided by `speed`, and b times KD_MATTER_FIELD. Theta is k T/(m_e
+     * c^2). least and range: least value and range of log2 of density and of Theta. */
     bool packed, whole; /* whole: true if the file requests nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by

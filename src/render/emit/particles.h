@@ -70,7 +70,7 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* The grid is computed for a time before scene->top.time; returns the difference. With slow light and a camera at a
- * finite radius it is camera.r, which is about the delay of the light, so that the remaining delay is short. Otherwise
+ * finite radius it is camera.r. This is about the delay of the light, so that the remaining delay is short. Otherwise
  * it is 0. */
 double kd_particle_delay(const struct kd_scene *scene);
 

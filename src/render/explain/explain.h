@@ -62,7 +62,7 @@ void kd_explained_finish(struct kd_explained *explained);
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* True if there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
-/* Velocity of the disk's gas at a crossing outside the horizon, in units of c, as a local observer of zero angular
+/* Velocity of the disk's gas at a crossing outside the horizon, in units of c. A local observer of zero angular
  * momentum measures it. speed: magnitude of the velocity; approach: its component along the light towards the camera.
  * Inside the ISCO the gas keeps the E and L of the ISCO. */
 struct kd_gas_velocity { double speed, approach; };

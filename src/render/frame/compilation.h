@@ -37,8 +37,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* True if compiling in advance is of use with this device. If it is of no use but the user can change that, the log
- * says how. */
+/* True if compiling in advance is of use with this device. If not, the log says why, and what the user can change. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

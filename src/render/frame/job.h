@@ -46,7 +46,8 @@ struct kd_frame_job {
     struct kd_error *error;
 };
 
-/* Update the costs of passes from the device times of a frame: nanoseconds an item on idle cores, smoothed. */
+/* kd_frame_learn updates the costs of passes from the device times of a frame: nanoseconds an item on idle cores,
+ * smoothed. Call kd_frame_learn_begin before the frame. */
 void kd_frame_learn_begin(struct kd_frame_job *job);
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 

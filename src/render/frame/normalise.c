@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures */
+/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures of one
+ * size */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
 /* relative error of the flux at which the search with 48 pixels ends: the flux of a picture of 128 pixels differs from
  * that of 48 by no more */
@@ -89,8 +90,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. Each time an
- * end of the bracket stays the same, the function value at that end is halved (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. When an end of
+ * the bracket stays the same twice, the function value at that end is halved (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
