@@ -31,11 +31,11 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* Largest number of steps that a request may name. With this limit every ray is traced to its end, although llvmpipe
- * silently ends the loops of a kernel after 65535 rounds, counted over all loops together. In Mino time a ray takes
- * at most 12 + KD_RAYS_MAX_ORDERS half periods, each of this many steps. For the Kerr-Schild engines,
- * rays_kerr_schild.comp counts the rounds. Tao's engine has a lower limit, because each of its steps contains an
- * inner loop. */
+/* Largest number of steps that a request may name. llvmpipe silently ends the loops of a kernel after 65535 rounds,
+ * counted over all loops together. With this limit every ray reaches its end before that. In Mino time a ray takes at
+ * most 12 + KD_RAYS_MAX_ORDERS half periods, each of this many steps. For the Kerr-Schild engines,
+ * rays_kerr_schild.comp counts the rounds. Tao's engine has a lower limit, because each of its steps contains an inner
+ * loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;

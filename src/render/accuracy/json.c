@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FORMAT 1 /* version of the document; a table of another version is measured again */
+#define FORMAT 1 /* version of the document; a table of another version is rejected */
 
 /* Writes a number with four digits, because further digits vary from run to run. */
 static void add_figure(struct kd_json *json, const char *name, double value)
@@ -95,8 +95,8 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* Reads a whole number of the document. Any other value, and a number that is too large, becomes UINT32_MAX. No
- * reader accepts that number. */
+/* Reads a whole number of the document. Any other value, and a number that is too large, becomes UINT32_MAX, which
+ * every caller rejects. */
 static uint32_t whole(const cJSON *object, const char *name)
 {
     double value = figure(object, name);

@@ -3,9 +3,9 @@
  * thread.
  *
  * An engine's errors are the differences between its results (render/rays/rays.h) and those of KD_ENGINE_CLOSED, on
- * named sets of rays (render/accuracy/sets.h). An error is taken over the crossings of all orders that both methods
- * find between the ISCO and KD_ACCURACY_FAR. Errors of r and g are relative. Errors of phi (radians) and delay (M)
- * are absolute. `differ` counts the rays whose fate or number of crossings differs from the closed form's. */
+ * named sets of rays (render/accuracy/sets.h). The statistics cover the crossings of all orders that both methods find
+ * between the ISCO and KD_ACCURACY_FAR. Errors of r and g are relative. Errors of phi (radians) and delay (M) are
+ * absolute. `differ` counts the rays whose fate or number of crossings differs from the closed form's. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -52,7 +52,8 @@ struct kd_accuracy_table {
     char skipped[400];
     uint32_t cores; /* number of cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one speed measurement; it is shorter if a million rays take less time */
+    /* requested device time of one speed measurement; a fast device needs less, because the rays are limited */
+    double seconds;
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };

@@ -1,4 +1,5 @@
-/* Stores the accuracy table of a device on disk, beside the device's pipeline cache. A new driver gets a new table. */
+/* Stores the accuracy table of a device on disk, beside the device's pipeline cache. Each version of the driver has a
+ * file of its own. */
 #ifndef KD_RENDER_DEVICE_ACCURACY_STORE_H
 #define KD_RENDER_DEVICE_ACCURACY_STORE_H
 

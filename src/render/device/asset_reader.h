@@ -28,7 +28,7 @@ struct kd_asset_maker {
     enum kd_status (*make)(void *owner, const struct kd_asset_request *request, bool *invalid, struct kd_error *error);
     /* caches what `make` made; called with the lock */
     void (*keep)(void *owner, const struct kd_asset_request *request);
-    /* Called without the lock after each request, by the thread only; may be NULL. */
+    /* Called after each request, without the lock, and only by the queue's own thread; may be NULL. */
     void (*after)(void *owner, const struct kd_asset_request *request);
 };
 
@@ -38,27 +38,28 @@ struct kd_asset_reader {
     pthread_cond_t changed;
     struct kd_asset_request asked[KD_ASSET_REQUESTS]; /* requests, oldest first; the first one is in progress */
     unsigned n_asked;
-    bool runs;                  /* true if the thread is running */
-    char broken[KD_ASSET_NAME]; /* name of the last request that failed; "": none failed */
-    bool invalid;               /* true if `broken` failed because its asset is invalid */
+    bool runs; /* true while a thread serves the queue: its own, or a caller of kd_asset_reader_wait */
+    /* name of the last failed request that was not `ahead`; "": none, or it may be tried again */
+    char broken[KD_ASSET_NAME];
+    bool invalid; /* true if `broken` failed because its asset is invalid */
     struct kd_error why;
     const struct kd_asset_maker *maker;
     void *owner;
-    void (*made)(void *user); /* called by the thread, without the lock, after each request; may be NULL */
+    void (*made)(void *user); /* called by the queue's own thread, without the lock, after each request; may be NULL */
     void *user;
 };
 
 void kd_asset_reader_init(struct kd_asset_reader *reader, const struct kd_asset_maker *maker, void *owner,
                           void (*made)(void *user), void *user);
-/* Stops first. */
+/* Calls kd_asset_reader_stop first. */
 void kd_asset_reader_finish(struct kd_asset_reader *reader);
 
-/* Adds a request unless the object is cached. A waiting client calls this function repeatedly; if the object was
- * evicted meanwhile, it is made once more. Does nothing if no thread can be created. Returns whether the request is
- * in progress. Called with the lock. */
+/* Adds a request. Does nothing if the object is cached, if its asset is invalid, if the queue is full, or if no thread
+ * can be created. A waiting client calls this function repeatedly; if the object was evicted meanwhile, it is made once
+ * more. Returns true if the request is waiting or in progress. Called with the lock. */
 bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset_request *request);
-/* Waits until the object is cached, and makes it on the calling thread if the reader's thread does not run. On failure
- * returns the error of `make`. Called with the lock. */
+/* Waits until the object is cached, and makes it on the calling thread if no thread can be created. On failure returns
+ * the error of `make`. Called with the lock. */
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error);
 /* True if there is no request, waiting or in progress. Called with the lock. */

@@ -43,8 +43,8 @@ struct kd_renderer {
     struct kd_prepared prepared;
     struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
     uint64_t backgrounds_used;
-    /* reused for the next list of rays (rays/device.c): buffers for the list and for its results, and a buffer on the
-     * host for both */
+    /* two sets of buffers, reused for the next list of rays (rays/device.c). A set has the rays in a buffer that the
+     * host writes, their ends on the device, and their ends on the host */
     struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
         enum kd_engine engine;
@@ -64,7 +64,7 @@ struct kd_renderer {
     _Atomic uint64_t held; /* bytes of device buffers after the last frame */
     _Atomic uint64_t kept_bytes[KD_N_CACHE_KINDS];
     _Atomic uint64_t opened_bytes; /* bytes that were resident after the device was last opened */
-    /* values when the device had first been opened. started_bytes: resident bytes; started_heap: heap bytes in use */
+    /* values right after the device was first opened. started_bytes: resident bytes; started_heap: heap bytes in use */
     _Atomic uint64_t started_bytes, started_heap;
     /* accuracy table of this device, read from disk when the renderer was created; NULL: none */
     struct kd_accuracy_table *accuracy;
@@ -72,7 +72,7 @@ struct kd_renderer {
     struct kd_capacity stored;       /* capacity as it is stored in the file */
     struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */
     uint32_t frames;                 /* number of frames so far, counted by learn.c */
-    /* if true, the cost of a pass is the smallest of its measured costs; if false, the cost is their mean */
+    /* if true, the cost of a pass is the smallest of its measured costs; if false, it is their running mean */
     bool probing;
     char name[800]; /* `device` and `driver`, joined */
     char device[256], driver[520];

@@ -11,7 +11,7 @@
 
 struct kd_cached_grid {
     char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
-    struct kd_matter_grid grid; /* nodes and places: up to 80 MiB, present until they are uploaded; otherwise NULL */
+    struct kd_matter_grid grid; /* nodes: up to 512 MiB, places: up to 16 MiB; NULL after they are uploaded */
     uint64_t used;              /* value of a counter at the last use, to find the least recently used grid */
 };
 /* KD_GRIDS: number of cached descriptions. KD_GRIDS_READ: maximum number of grids whose nodes wait to be uploaded. */

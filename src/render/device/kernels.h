@@ -9,10 +9,10 @@ enum kd_kernel {
     KD_KERNEL_LENS_CLOSED,
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_FOOTPRINT,
-    KD_KERNEL_FOOTPRINT_TEXELS, /* the footprint kernel; it reads the lens map as texels */
+    KD_KERNEL_FOOTPRINT_TEXELS, /* variant of the footprint kernel that reads the lens map as texels */
     KD_KERNEL_LENS_CELLS,
     KD_KERNEL_LENS_FILL,
-    KD_KERNEL_LENS_FILL_TEXELS, /* the fill kernel; it reads nodes as texels */
+    KD_KERNEL_LENS_FILL_TEXELS, /* variant of the fill kernel that reads nodes as texels */
     KD_KERNEL_BETWEEN,
     KD_KERNEL_SETTLE,
     KD_KERNEL_RAYS_F32,
@@ -30,15 +30,15 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
-    KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel; it reads texels */
-    /* transfer kernel for a single ray, with a report of each emitter; the kernel after it does the same for rays
+    KD_KERNEL_TRANSFER_TEXELS, /* variant of the transfer kernel that reads texels */
+    /* transfer kernel for a single ray, with a report of each emitter; KD_KERNEL_MARCH_PROBE does the same for rays
      * through volumes */
     KD_KERNEL_TRANSFER_PROBE,
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
-    KD_KERNEL_MARCH,        /* the transfer and layers kernels for scenes with volumes */
-    KD_KERNEL_MARCH_PIECES, /* the transfer kernel for rays that continue from a stored state */
-    KD_KERNEL_LAYERS_MARCH,
+    KD_KERNEL_MARCH,        /* the transfer kernel for scenes with volumes */
+    KD_KERNEL_MARCH_PIECES, /* the same for rays that continue from a stored state */
+    KD_KERNEL_LAYERS_MARCH, /* the layers kernel for scenes with volumes */
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
     KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant that reads texels */
@@ -78,7 +78,7 @@ struct kd_kernel_entry {
     struct kd_vk_pipeline *pipeline;
     uint64_t used;
 };
-/* Kernels that will be requested and do not exist yet. */
+/* A kernel to be made. made: its pipeline; NULL: not made yet, or it failed. */
 struct kd_kernel_request {
     const struct kd_vk_pipeline_params *source;
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
@@ -95,7 +95,7 @@ struct kd_kernels {
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;
-    uint64_t noted; /* value of the clock when the latest noted kernels were made */
+    uint64_t noted; /* value of the clock when noted kernels were last added to the cache */
 };
 
 /* Gets the pipeline of a kernel with specialisation constants 0..n-1. If the cache is full, the least recently used
@@ -113,14 +113,14 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 /* These three functions are the steps of kd_kernels_make. kd_kernels_noted ends recording and returns the noted
- * kernels. The second function makes them. The third function adds them to the cache. The second may run on any
- * thread while another thread uses the device, as long as the device stays open. */
+ * kernels. kd_kernel_requests_make makes them; it may run on any thread while another thread uses the device, as long
+ * as the device stays open. kd_kernels_keep adds them to the cache. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* True if the device should read the radiance of this many pixels as texels of four floats. A software device reads
- * texels in a third of the time that it needs for a storage buffer. The number of texels that can be bound differs
- * between devices. */
+/* True if the device can bind the radiance of this many pixels as texels of four floats. The number of texels that can
+ * be bound differs between devices. A software device reads texels in a third of the time that it needs for a storage
+ * buffer. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);

@@ -91,8 +91,8 @@ static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b
     return promised != other ? !promised : a->used < b->used;
 }
 
-/* Evicts the least recently used panorama, before a new one is made, so that there are never more than KD_PANORAMAS
- * in memory. */
+/* Evicts one panorama (goes_before) before a new one is made, so that there are never more than KD_PANORAMAS in
+ * memory. */
 static void make_room(void *owner)
 {
     struct kd_panoramas *all = owner;

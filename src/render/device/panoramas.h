@@ -22,7 +22,7 @@ enum { KD_PANORAMAS = 3 };
 
 struct kd_panoramas {
     struct kd_asset_reader reader;               /* its lock protects all members below */
-    struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of; it is not evicted */
+    struct kd_panorama at[KD_PANORAMAS], *given; /* given: last result of kd_panorama_of; not evicted for a new one */
     struct kd_panorama made;                     /* panorama made by the reader's thread, which then caches it */
     bool recalled;                               /* true if `made` was read from the file */
     const struct kd_panorama *fresh;             /* a new Milky Way that must be written to the file, or NULL */
@@ -44,8 +44,8 @@ void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
  * once more. Panoramas that were not delivered yet are evicted last. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky, so that later requests wait less. Does nothing if no slot is free or
- * if another request is in progress. A panorama read in advance is evicted first. An error is not reported here, but
- * to the caller that requests the panorama. */
+ * if another request is in progress. A panorama read in advance may be evicted before it is used. An error is not
+ * reported here, but to the caller that requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
 /* Gets the panorama of a scene that has one. Waits until the panorama is made, some tenths of a second for a Milky
  * Way and a second for a large picture. The panorama is valid until the next call. Render thread only. Returns

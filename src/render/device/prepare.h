@@ -18,7 +18,7 @@ struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
 /* Starts the work that emitters do on the host, on threads of their own. */
 void kd_prepare_begin(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan_light *light);
-/* Calls `tell` of all emitters of the scene, after kd_emit_update. */
+/* Calls `tell` of all emitters of the scene. Call this after kd_emit_update. */
 enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_scene *scene,
                                const struct kd_plan_light *light, struct kd_emission *out, char *credit, size_t size,
                                struct kd_error *error);

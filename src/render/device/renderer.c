@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Device memory for pictures: three quarters of the heap, less the memory that other processes use. */
+/* Device memory for pictures: three quarters of the heap, or the driver's budget for this process if that is less. */
 static uint64_t free_bytes(const struct kd_vk_info *info)
 {
     uint64_t share = info->heap_bytes / 4 * 3;

@@ -99,11 +99,12 @@ struct kd_accuracy_report {
      * pixel_error: root mean square, extrapolated to the whole picture; pixel_error_worst: largest difference in the
      * sample */
     double pixel_error, pixel_error_worst;
-    /* for scenes with volumes: number of rays that were traced again with steps KD_MARCH_FINER times as fine */
+    /* for scenes with volumes: number of sampled rays whose light changes, or is not valid, when they are traced again
+     * with steps KD_MARCH_FINER times as fine */
     uint32_t volume_sampled;
-    /* relative change of the light of these rays when they are traced again; the divisor is at least KD_MARCH_DARK
-     * times the brightest light. volume_error: 90th percentile; volume_error_worst: largest change. A ray counts as 1
-     * if its light is not finite or if it has no end */
+    /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
+     * volume_error: 90th percentile; volume_error_worst: largest change. A ray counts as 1 if its light is not finite
+     * or if the ray was given up */
     double volume_error, volume_error_worst;
     /* number of rays that were given up in volumes (magenta in the displayed picture), plus number of pixels whose
      * light is not finite */

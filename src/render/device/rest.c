@@ -41,9 +41,9 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* Resident memory that belongs to no other category is divided between `heap` and `other`. Memory in use on the heap
- * counts as `heap`, but at most this remainder. The remainder may be smaller than the heap, because device memory
- * counts in full although some of its pages may never have been touched. */
+/* Resident memory of no other kind is divided between `heap` and `other`. Memory in use on the heap counts as `heap`,
+ * but at most this remainder. The remainder may be smaller than the heap, because device memory counts in full although
+ * some of its pages may never have been touched. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
@@ -91,9 +91,9 @@ static void give_back(struct kd_renderer *r)
     kd_grids_rest(&r->grids);
 }
 
-/* Closes the device and reopens it. If the process is still larger afterwards, the growth does not count as the
- * device's memory, and the device is not reopened again because of it. The latest kernels are made again, in a third
- * of a second on two cores, so that the next picture of the same view does not wait for them. */
+/* Closes the device and reopens it. Memory that is still resident afterwards no longer counts in kd_renderer_kept_sum,
+ * so that the device is not reopened again because of it. The latest kernels are made again, in a third of a second on
+ * two cores. So the next picture of the same view does not wait for them. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     _Static_assert(KD_REST_KERNELS <= KD_KERNEL_WISHES, "all kernels that are kept are made again");

@@ -17,7 +17,7 @@ enum kd_cache_kind {
 
 /* Limits for what stays after kd_renderer_rest. Device memory is allocated in blocks of 64 MiB (vk/memory.c), and one
  * lens map may occupy two of them. */
-#define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map stays, unless it is larger than this */
+#define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens maps stay, as far as they fit */
 #define KD_REST_KERNELS 16u              /* enough of the most recently used kernels for one view and its refinement */
 #define KD_REST_PANORAMAS 1u             /* the latest panorama, up to 45 MB */
 /* Limit for the buffers of finished background renders (kd_render_in_background), except the last one. These buffers

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Replaces a buffer by a new one with the given bytes. */
+/* Uploads the bytes to a buffer, which is made again if it is too small or much too large. */
 static enum kd_status upload(struct kd_renderer *r, struct kd_vk_buffer **to, const void *data, size_t bytes,
                              const char *name, struct kd_error *error)
 {
@@ -39,8 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Computes the index in the list, counted from `from`, at which each cell begins. cells[c + 1] becomes the start of
- * cell c, because `sort` needs this layout. The last number is the end of the last cell. */
+/* Computes where each cell begins in the list of entries, whose first index is `from`. The start of cell c is stored in
+ * cells[c + 1], because `sort` advances it to the end of the cell. The last number is the end of the last cell. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;

@@ -59,7 +59,7 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
-    /* the layers of numbers in sequence, kd_plan_layer_bytes each; no buffers: no frame had layers */
+    /* the layers of numbers, one after the other, of kd_plan_layer_bytes each; no buffers: no frame had layers */
     struct kd_bands layers;
     /* packed pixels of one band: `words` on the device, `readback` on the host */
     struct kd_vk_buffer *words, *readback;
@@ -93,8 +93,8 @@ struct kd_store {
     struct kd_vk_buffer *undecided_host; /* copy of `undecided` on the host */
 };
 
-/* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready
- * to be written, and after kd_store_commit later frames can find the map. Least recently used maps are evicted. */
+/* Finds the lens map of the plan. *reused: true if a complete map was found. Otherwise the map's buffers are ready to
+ * be written, and after kd_store_commit later frames can find the map. Least recently used maps are evicted. */
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error);
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens);

@@ -20,7 +20,7 @@ struct kd_verdict {
 void kd_verdict_recall(struct kd_renderer *renderer);
 /* Writes the renderer's verdict. Also writes the costs of passes in `capacity`, if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);
-/* Stores the present costs of passes for the next start, if there is a cache. */
+/* Stores the present costs of passes for the next start, if the test has passed and a cost has changed by a quarter. */
 void kd_verdict_keep(struct kd_renderer *renderer);
 
 /* The verdict on a renderer's device. Belongs to the renderer. */

@@ -37,20 +37,20 @@ void kd_illumination_body(const struct kd_illumination *lit, const struct kd_see
 
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. A body is left out if
- * it has no size, if its place is impossible, or if its distance from the horizon is less than KD_BODIES_CLEAR times
- * the horizon's radius. */
+/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. A body is left out in
+ * three cases: it has no size, one of its numbers is out of range, or its r is less than KD_BODIES_CLEAR times the
+ * horizon's. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
 /* True if a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */
 bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
-/* Computes the block of numbers that goes with the packed bodies. */
+/* Computes the numbers that the kernels read beside the packed bodies, such as the ball that bounds them all. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                      struct kd_bodies_block *out);
 #define KD_BODIES_CLEAR 1.02
 
-/* kd_bodies_count counts the bodies of a valid scene; the next function lists them: the scene's own bodies at the
- * scene's time, then those of its playground. */
+/* kd_bodies_count: number of bodies of a valid scene. kd_bodies_of lists them: the scene's own bodies at the scene's
+ * time, then those of its playground. */
 size_t kd_bodies_count(const struct kd_scene *scene);
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 

@@ -6,9 +6,10 @@
  *   dF = I g^4 (z/d) dA/d^2 / D^2,   g = D (lapse there/lapse here)/(gamma' (1 + v'.n)),   D = gamma (1 + v.n),
  *
  * where v' and v are the velocities of gas and body relative to observers of zero angular momentum, whose frames are
- * taken as parallel. In the body's frame the source has a solid angle smaller by D^2, in the direction n' = (n +
- * gamma v (1 + gamma/(gamma + 1) v.n))/D. The numbers of a body are the sums of dF, dF n' and dF n'n'. These sums
- * determine the illumination of each side to second order (shaders/emit/bodies.glsl). */
+ * taken as parallel. In the body's frame the source has a solid angle smaller by D^2, in the direction n' = (n + gamma
+ * v (1 + gamma/(gamma + 1) v.n))/D. The numbers of a body are the sums of dF, dF n' and dF n'n', and the mean of g
+ * times the temperature, weighted by dF. The sums determine the illumination of each side to second order
+ * (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
 #include "physics/spacetime/kerr.h"

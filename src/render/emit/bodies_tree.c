@@ -134,7 +134,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
     }
 }
 
-/* Bounding box of some balls: its centre and its longest axis. */
+/* Bounding ball of some balls, round the centre of their bounding box. *axis: the longest axis of that box. */
 static struct ball round_all(const struct ball *balls, size_t n, int *axis)
 {
     struct ball all = { 0 };

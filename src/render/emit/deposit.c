@@ -49,8 +49,8 @@ static void forget(void *own) { ((struct own *)own)->time = NAN; }
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
-/* Runs the particles from push->first up to `end`. Either all of them fall or all of them orbit, because in a kernel
- * with both branches lavapipe would execute both. */
+/* Runs the kernel over the particles from push->first up to `end`. Either all of them fall or all of them orbit,
+ * because in a kernel with both branches lavapipe would execute both. */
 static enum kd_status share_out(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene, bool plunge,
                                 struct kd_particles_push *push, uint32_t end, struct kd_error *error)
 {

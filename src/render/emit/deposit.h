@@ -1,4 +1,4 @@
-/* Counts the particles (render/emit/particles.h) in each cell of their grids on the device. Also reads back the
+/* Counts the particles (render/emit/particles.h) at each node of their grids on the device. Also reads back the
  * positions of listed particles. Render thread only. */
 #ifndef KD_RENDER_EMIT_DEPOSIT_H
 #define KD_RENDER_EMIT_DEPOSIT_H

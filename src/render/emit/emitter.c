@@ -226,7 +226,7 @@ static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii
     }
 }
 
-/* The least |cos(theta)| of all volumes. height_of_all gives the largest. */
+/* The least |cos(theta)| at which a volume emits or absorbs. height_of_all gives the largest. */
 static double hollow_of_all(const struct kd_scene *scene)
 {
     double least = 1;

@@ -1,6 +1,6 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
- * shaders/shared/emitters.h; each emitter has a file of its own. Plan, needs of the lens map, motion, device data and
- * approximations iterate over the table, and their code names no emitter.
+ * shaders/shared/emitters.h; each emitter has a file of its own. Five parts of the program iterate over the table and
+ * name no emitter: plans, needs of the lens map, motion, device data and approximations.
  *
  * To add an emitter, write its line in that table, and its section in the field table. Write shaders/emit/NAME.glsl,
  * and src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid
@@ -46,9 +46,9 @@ struct kd_emitter {
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
     /* flags of enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
-    /* The emitter's own device buffers, their size in bytes, and the number of invocations of the pass that fills
-     * them (KD_PASS_name of its GLSL file). This pass runs before light is computed. NULL: the emitter has no
-     * buffers. If only `invocations` is NULL, the host fills the buffers. */
+    /* own: the emitter's own device buffers. device_bytes: their size. invocations: number of invocations of the pass
+     * that fills them (KD_PASS_name of its GLSL file) before light is computed. NULL: the emitter has no buffers. If
+     * only `invocations` is NULL, the host fills the buffers. */
     const struct kd_emitter_buffers *own;
     uint32_t quads; /* traits with which the emitter reads a buffer of quads; 0: it never reads one */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
@@ -99,8 +99,9 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 /* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. Call this for a device that reads the
  * buffer as texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* Needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The functions after it are true if there
- * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
+/* Needs of the scene's emitters. kd_emit_needs: quantities of the lens map. kd_emit_at_crossings: true if there is
+ * light at crossings of the plane. kd_emit_at_ends: at the ends of rays. kd_emit_separate_photometry: with a luminance
+ * of its own. kd_emit_points: from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene); /* true if there are volumes */

@@ -15,8 +15,8 @@
 
 #define NEVER -1e6 /* log2 of zero */
 #define COLD -24.0 /* log2 of k T/(m_e c^2) below which no fit is valid: 354 K */
-/* The log2 of the density of an empty node is lower than that of the densest node by this number, so that the light
- * falls to nothing within a cell. */
+/* An empty node is given a density. Its log2 is lower than that of the densest node by at least this number. The light
+ * then falls to nothing within a cell. */
 #define EMPTY 40.0
 #define EVEN 1e-3 /* tolerance for the even spacing of rows, as a fraction of a step */
 /* tolerance for the even spacing of times, as a fraction of a step. The tolerance is larger than EVEN, because
@@ -50,7 +50,7 @@ struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
     double *r, *theta;            /* r: radius of each row; theta: angle of each column, or of each node of a layer */
-    size_t theta_rows;            /* number of rows if each row has its own angles; otherwise 1 */
+    size_t theta_rows;            /* number of rows that have angles of their own; 1: all rows have the same angles */
     bool look;                    /* true if the numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
     size_t kind, done;            /* kind: index of the current array; done: number of its elements that are done */
@@ -162,7 +162,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that coordinates grow in even steps. If `logarithmic` is true, their logarithms must do so. */
+/* Checks that coordinates grow in even steps. If `logarithmic` is true, their logarithms must grow in even steps. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -462,8 +462,8 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
     return refuse_number(g, kinds[kind].name, i, read, allowed, error);
 }
 
-/* Checks that -lapse^2 (u^t)^2 + U^2 = -1, where U is the spatial part for observers of zero angular momentum
- * (Bardeen, Press & Teukolsky 1972), at nodes outside the horizon. */
+/* Checks that -lapse^2 (u^t)^2 + U^2 = -1 at nodes outside the horizon. U is the spatial part for observers of zero
+ * angular momentum (Bardeen, Press & Teukolsky 1972). */
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;

@@ -5,8 +5,8 @@
  *                 "kerr-schild", "units": {array: unit}, and optionally "charge": Q of the hole in M, 0 if missing, and
  *                 "packed": true or false; the default is true in a grid of more than 2^21 nodes}
  *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta has an
- *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
- *                 of a turn with a whole k, and may be missing
+ *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a full
+ *                 turn, or 1/k of it, where k is a whole number, and may be missing
  *   time          optional: the times of the frames of a series, in even steps. Each array below then has a leading
  *                 axis of frames. The header's "time" names the time that is constant in a frame, "boyer-lindquist" or
  *                 "kerr-schild"; if it is missing, it is the time that "azimuth" names
@@ -46,8 +46,8 @@ struct kd_matter_grid {
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
-    /* phi: azimuth of the first layer. turn: angle covered by all layers, in radians; it is a turn, or 1/k of a turn
-     * with a whole k */
+    /* phi: azimuth of the first layer. turn: angle covered by all layers, in radians; it is a full turn divided by a
+     * whole number */
     double phi, turn;
     bool ingoing; /* true if phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
     double field; /* the largest component of the field, in gauss; 1 if there is no field */
@@ -55,9 +55,9 @@ struct kd_matter_grid {
      * c^2), u^r, r u^theta, u_phi/(r sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by
      * `field`. These numbers vary little from node to node and are finite on the axis. */
     float *nodes;
-    /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in
-     * the order above, namely u divided by `speed` and b times KD_MATTER_FIELD. least and range: least value and
-     * range of log2 of density and of Theta. */
+    /* A packed node has four words. The first has density and Theta as fractions of their ranges, in 16 bits each. The
+     * others have six halves in the order above: u divided by `speed`, and b times KD_MATTER_FIELD. Theta is k T/(m_e
+     * c^2). least and range: least value and range of log2 of density and of Theta. */
     bool packed, whole; /* whole: true if the file requests nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by

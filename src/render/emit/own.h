@@ -25,8 +25,8 @@ struct kd_emitter_buffers_work {
 
 struct kd_emitter_buffers {
     size_t bytes; /* size of the emitter's state, which is its buffers and a record of their contents */
-    /* Records and submits the commands that bring the buffers up to date with the scene. The commands are timed under
-     * the emitter's name. */
+    /* Records and submits the commands that bring the buffers up to date with the scene. Kernels are timed under the
+     * emitter's name, and copies as "upload". */
     enum kd_status (*prepare)(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                               struct kd_error *error);
     void (*buffers)(const void *own,

@@ -49,11 +49,12 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
-/* Each cell of the plunge's grid is a parcel of falling gas that holds one particle on average. The grid has three
- * times as many columns (parcels round the ISCO) as rows (parcels from start to end), so that half-way down a parcel is
- * about as wide as it is long. Slow light needs further rows. Light with a longer delay shows parcels that fell in
- * earlier, and light from the near side of the disk shows parcels that have not started yet. The constants are the
- * longest such times in M. LATE grows with the order, because light takes half a turn longer for each order. */
+/* Each cell of the plunge's grid is a parcel of falling gas that holds one particle on average. Columns are parcels
+ * round the ISCO, and rows are parcels from start to end. There are three times as many columns as rows, so that
+ * half-way down a parcel is about as wide as it is long. Slow light needs further rows. Light with a longer delay shows
+ * parcels that fell in earlier. Light from the near side of the disk shows parcels that have not started yet. The
+ * constants are the longest such times in M. LATE grows with the order, because light takes half a turn longer for each
+ * order. */
 #define EARLY 20.0
 #define LATE 50.0
 #define LATE_PER_ORDER 25.0

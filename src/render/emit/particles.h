@@ -28,7 +28,7 @@
 
 struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
-/* number of guiding orbits if there are at least as many particles; a row of the default grid then has 35 orbits */
+/* least number of guiding orbits, unless there are fewer particles; a row of the default grid then has 35 orbits */
 #define KD_PARTICLE_RADII 4096u
 /* largest number of orbits. So many are used if there are many rows or if some rows are nearly empty */
 #define KD_PARTICLE_RADII_MAX 65536u
@@ -43,7 +43,7 @@ struct kd_particle_grid {
     /* lap_rows: rows from the start of the plunge to its end; lead_rows: rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
-    uint64_t bytes; /* size of the grids on the device */
+    uint64_t bytes; /* size of all buffers on the device */
 };
 /* The grid of a valid scene; its cells are about square, with a handful of particles in each. */
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
@@ -69,8 +69,9 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
  * own frame. It is normalised to the optical depth of the disk just outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
-/* The grid is computed for a time before scene->top.time; returns the difference. It is about the light delay of a
- * near camera, so that the remaining delay is short. */
+/* The grid is computed for a time before scene->top.time; returns the difference. With slow light and a camera at a
+ * finite radius it is camera.r. This is about the delay of the light, so that the remaining delay is short. Otherwise
+ * it is 0. */
 double kd_particle_delay(const struct kd_scene *scene);
 
 /* A particle's position: Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */

@@ -60,8 +60,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
-/* cos(theta) at which a layer becomes too thin to be visible. There x = steep u, or x = steep u/sin(theta), equals
- * KD_PLASMA_SEEN. */
+/* cos(theta) of the greatest height at which a layer is visible: KD_PLASMA_SEEN scale heights. The height in scale
+ * heights is steep u/sin(theta), or gold_flattening u in the analytic model. */
 static double height(const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
@@ -84,7 +84,7 @@ static double knot(const struct kd_scene *scene)
 }
 
 /* Number of nodes of the scene's grid. If the grid's file has not been found yet, returns the largest number of nodes
- * that are not packed. */
+ * of a grid that is not packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->matter.nodes ? scene->matter.nodes : KD_MATTER_WHOLE;
@@ -120,8 +120,8 @@ static unsigned varies(const struct kd_scene *scene)
 }
 
 /* The range of times, on the grid's clock, that a picture shows. In slow light, the latest light comes from the outer
- * edge in front of the hole. The earliest comes from the outer edge behind the hole, in an image of order 2: light
- * turns round the hole by pi more for each order, which takes pi b_c, b_c = 3 sqrt 3 M (J.-P. Luminet 1979, A&A 75,
+ * edge in front of the hole. The earliest comes from the outer edge behind the hole, in an image of order 2. For each
+ * order light turns round the hole by pi more. This takes pi b_c, where b_c = 3 sqrt 3 M (J.-P. Luminet 1979, A&A 75,
  * 228). Light from near the horizon is older still, and is not included. */
 #define ORDERS_M (2 * M_PI * 5.196152422706632)
 static void needs_times(const struct kd_scene *scene, double out[2])

@@ -36,8 +36,8 @@ struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* Converts many phases to places. This is the inverse of the function above. It uses a table of points with known
- * slopes, and cubics between the points. r is accurate to 1e-9. */
+/* kd_plunging_radius converts a phase to a place. It is the inverse of kd_plunging_at for many phases: kd_plunging_path
+ * makes a table of points with known slopes, and cubics interpolate between the points. r is accurate to 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

@@ -20,8 +20,8 @@ double kd_radio_jansky_steradian(const struct kd_scene *scene);
  * that of a picture with the same width at the hole, seen from spacetime.distance_pc (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
-/* Flux in Jy of one pixel with light 1, for an observer at infinity, where all pixels cover the same area of the
- * image plane. */
+/* Flux in Jy of one pixel with light 1. For an observer at infinity only, because then all pixels cover the same area
+ * of the image plane. */
 double kd_radio_jansky_pixel(const struct kd_scene *scene);
 
 #endif

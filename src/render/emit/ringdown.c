@@ -15,8 +15,8 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* True if the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast. So a change of a
- * third of an 8-bit step may remain when the result becomes false. */
+/* Returns KD_DIMS_WITH_TIME while the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too
+ * fast. So a change of a third of an 8-bit step may remain when the result becomes 0. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

@@ -7,11 +7,11 @@
 #include "render/accuracy/engine.h"
 #include "scene/scene.h"
 
-/* Traces some hundred pixels of the picture in closed form. Compares each ray with two others: the next pixel's ray,
- * and the same ray with labels rounded to the lens map's precision. A pixel counts if one of these two rays ends more
- * than KD_SKY_STEP away on the sky. Returns true if most pixels that see the sky count. Returns false for a camera at
- * infinity or beyond KD_SKY_NEAR horizon radii, because such jumps occur there only next to the critical curve. Takes
- * a fraction of a millisecond. */
+/* Traces 96 pixels of the picture in closed form. Compares each ray with two others: the next pixel's ray, and the same
+ * ray with labels rounded to the lens map's precision. A pixel counts if one of these two rays misses the sky or ends
+ * more than KD_SKY_STEP away on it. Returns true if most pixels that see the sky count. Returns false for a camera at
+ * infinity or beyond KD_SKY_NEAR horizon radii, because such jumps occur there only next to the critical curve. Takes a
+ * fraction of a millisecond. */
 #define KD_SKY_STEP 0.1 /* in radians (5.7 degrees); the lines of the drawn grid are about 15 degrees apart */
 #define KD_SKY_NEAR 1.5
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision);

@@ -21,8 +21,8 @@ static uint32_t traits(const struct kd_scene *scene)
                          : 0);
 }
 
-/* Crossings are searched even for smooth gas, because its images at the critical curve are thin, and so is their
- * light. */
+/* Crossings are searched even for smooth gas, whose light the march makes. Its images at the critical curve are thin,
+ * and refinement needs a lens map (kd_plan_adapt). */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? KD_LENS_PHI | KD_LENS_SHAPE : 0);

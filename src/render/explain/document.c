@@ -418,7 +418,8 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     return status;
 }
 
-/* Extends the scene's tile to the whole picture, because places are counted in the whole picture. */
+/* Replaces a tile by the whole picture, because places are counted in the whole picture. Of several layers only "rgb"
+ * is kept. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     (void)error;

@@ -247,9 +247,10 @@ bool kd_explained_has_gas(const struct kd_probed_place *p)
     return false;
 }
 
-/* A is the lapse and W the frame dragging. The local observer measures the energy (E - W L)/A of the gas per unit mass,
- * which is its Lorentz factor, and the energy (1 - W lambda)/A of light with E = 1. The gas measures the energy 1/g of
- * this light. This 1/g is the product of the Lorentz factor, of the light's local energy, and of 1 - approach. */
+/* A is the lapse and W the frame dragging. The local observer measures the gas's energy per unit mass (E - W L)/A,
+ * which is its Lorentz factor. The observer measures the energy (1 - W lambda)/A of light with E = 1. The gas measures
+ * the energy 1/g of this light. This 1/g is the product of the Lorentz factor, of the light's local energy, and of 1 -
+ * approach. */
 struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *x, const struct kd_ray_crossing *at)
 {
     const struct kd_hole *hole = kd_scene_hole(&x->scene);

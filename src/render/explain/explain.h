@@ -16,7 +16,8 @@
 struct kd_explained {
     const struct kd_probed_pixel *pixel;
     const struct kd_probed_ray *told; /* the picture's report on this ray */
-    /* factor of the ray's light in the pixel's light: 0, or 1 divided by the number of rays */
+    /* factor of the ray's light in the pixel's light: 1 divided by the number of rays; 0: the ray is not one of those
+     * whose mean is the pixel's light */
     double weight;
     const char *eye;              /* "left" or "right"; NULL: the picture is not a pair */
     struct kd_scene scene;        /* scene of this eye */
@@ -27,10 +28,11 @@ struct kd_explained {
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
     struct kd_ray_path path; /* path of the ray; only the middle ray's path has places */
-    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another number of crossings */
+    /* largest relative error in 1/r of the picture's crossings; 1: the picture has a crossing that the closed form
+     * lacks; NAN: the picture has no crossing */
     double picture_error;
     double shown[3]; /* displayed value of the pixel, 0 to 1 */
-    char why[240];   /* one sentence: where the ray ends, and why */
+    char why[240];   /* where the ray ends and why, and what hides that end, if anything does */
 };
 
 /* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light, without
@@ -60,7 +62,7 @@ void kd_explained_finish(struct kd_explained *explained);
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* True if there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
-/* Velocity of the disk's gas at a crossing outside the horizon, in units of c, as a local observer of zero angular
+/* Velocity of the disk's gas at a crossing outside the horizon, in units of c. A local observer of zero angular
  * momentum measures it. speed: magnitude of the velocity; approach: its component along the light towards the camera.
  * Inside the ISCO the gas keeps the E and L of the ISCO. */
 struct kd_gas_velocity { double speed, approach; };

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #define FAR 50.0     /* radius in M to which the path normally extends */
-#define FARTHEST 1e3 /* largest radius of the path in M; used for a path with a crossing further out than FAR */
+#define FARTHEST 1e3 /* largest radius in M to which a crossing further out than FAR extends the path */
 #define NEAR 0.01    /* distance from the horizon at which the path ends, as a fraction of the horizon's radius */
 #define DEGREES (180 / M_PI)
 
@@ -63,7 +63,7 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
     m.roots = kd_null_roots_of(&constants);
     name_roots(&m);
     name_polar(&m, &constants);
-    if (m.within) { /* a ray that starts next to the horizon can turn only at r3, and only if r3 is outside */
+    if (m.within) { /* a ray from inside can turn outside the horizon only at r3 */
         m.turning_r = m.roots.kind == KD_NULL_FOUR_REAL && m.roots.r3 > m.horizon ? m.roots.r3 : NAN;
         return m;
     }

@@ -9,7 +9,7 @@
 #include "physics/null/null_quartic.h"
 #include "render/rays/rays.h"
 
-#define KD_PATH_PLACES 4000 /* at most */
+#define KD_PATH_PLACES 4000 /* largest number of places of a path */
 
 struct kd_ray_motion {
     struct kd_null_ray ray;
@@ -64,8 +64,8 @@ enum kd_status kd_ray_path_draw(const struct kd_ray_motion *motion, const struct
                                 const struct kd_ray_crossing *crossings, size_t n, struct kd_ray_path *out,
                                 struct kd_error *error);
 void kd_ray_path_finish(struct kd_ray_path *path);
-/* Azimuth and delay of a place in the frame, and its coordinates x, y = sqrt(r^2 + a^2) sin(theta) (cos,
- * sin)(azimuth), z = r cos(theta). */
+/* kd_ray_path_phi, kd_ray_path_delay: azimuth and delay of a place in the frame. kd_ray_path_at: its coordinates (x, y)
+ * = sqrt(r^2 + a^2) sin(theta) (cos(azimuth), sin(azimuth)) and z = r cos(theta). */
 double kd_ray_path_phi(const struct kd_ray_path_frame *frame, double phi);
 double kd_ray_path_delay(const struct kd_ray_path_frame *frame, double delay);
 void kd_ray_path_at(const struct kd_ray_path *path, const struct kd_null_place *place, double out[3]);

@@ -43,7 +43,8 @@ static enum kd_status render_here(struct kd_renderer *renderer, const struct kd_
     return status;
 }
 
-/* Empties the stores of idle background renders, the oldest first, until `bytes` more fit. */
+/* Empties the stores of idle background renders, the oldest first, until all stores and `bytes` more fit into half of
+ * the memory. */
 static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
 {
     struct kd_capacity c;

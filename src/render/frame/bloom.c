@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Maximum number of blocks along an axis that two adjacent cells read together. The two cells read blocks in four
- * cells. A narrow last block moves the centres of blocks closer together, so that the two cells may read two more
+/* Maximum number of blocks along an axis that two adjacent cells read together. Together they read the blocks within
+ * four cells. A narrow last block moves the centres of blocks closer together, so that the two cells may read two more
  * blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {

@@ -17,8 +17,8 @@ struct kd_blur {
 };
 
 /* Adapts a picture's plan to motion blur: bytes, time, and the description in its file. Returns KD_EINVAL at a field if
- * the scene cannot be blurred (a pair of eyes, a map of numbers). Returns KD_ETOOBIG if the host lacks memory for the
- * light. */
+ * the scene cannot be blurred (a pair of eyes, a tile, a map of numbers). Returns KD_ETOOBIG if the picture fits on the
+ * device only in strips, or if the host lacks memory for the light. */
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 

@@ -48,7 +48,7 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
 }
 
 /* Collects pixels with a second difference of at least `floor`. *sum: sum of the squared second differences of all
- * pixels. */
+ * pixels that may be chosen. */
 static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum,
                             struct kd_error *error)
 {

@@ -44,7 +44,8 @@ enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *befo
                                 const struct kd_critical_pixels *lists, size_t n, double pixel_error,
                                 struct kd_choice *out, struct kd_error *error);
 
-/* Keeps the `most` pixels with the largest scores. Among equal scores the first pixels are kept. */
+/* Keeps the `most` pixels with the largest scores. Scores in the same of 1024 bins count as equal; among equal scores
+ * the first pixels are kept. */
 void kd_choose_largest(struct kd_choice *choice, uint64_t most);
 
 #endif

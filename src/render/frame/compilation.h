@@ -15,8 +15,8 @@ struct kd_compilation;
 /* Requests the same kernels that the work will need (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Called only
- * by the thread that owns the device. */
+/* Makes a compilation of the requested kernels that the device lacks. Returns NULL if the device has all of them, if
+ * `ask` fails, or if memory is short. Called only by the thread that owns the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
 /* Like kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
@@ -37,8 +37,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* True if compiling in advance is of use with this device. If it is of no use but the user can change that, the log
- * says how. */
+/* True if compiling in advance is of use with this device. If not, the log says why, and what the user can change. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

@@ -16,8 +16,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
 {
     struct kd_renderer *r = j->r;
     enum kd_status status;
-    /* A quarter of the memory is reserved for lens maps that the renderer caches, so that background renders fit
-     * beside them. A background render keeps only its own lens map. */
+    /* Lens maps stay in the renderer's own store while they and this picture fit into a quarter of the memory.
+     * Background renders then fit beside them. A background render keeps only its own lens map. */
     j->store->memory_bytes = j->background ? j->plan->cost.device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->lens.adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
@@ -94,7 +94,7 @@ done:
     return status;
 }
 
-/* Makes the missing kernels that take long on several threads, while emitters work on the host. */
+/* Makes the missing kernels that take long. It does so on several threads, while emitters work on the host. */
 static enum kd_status make_kernels(struct kd_frame_job *j)
 {
     kd_kernels_note(&j->r->kernels);

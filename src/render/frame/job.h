@@ -46,7 +46,8 @@ struct kd_frame_job {
     struct kd_error *error;
 };
 
-/* Update the costs of passes from the device times of a frame: nanoseconds an item on idle cores, smoothed. */
+/* kd_frame_learn updates the costs of passes from the device times of a frame: nanoseconds an item on idle cores,
+ * smoothed. Call kd_frame_learn_begin before the frame. */
 void kd_frame_learn_begin(struct kd_frame_job *job);
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 
@@ -121,9 +122,9 @@ struct kd_footprint_area {
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the first row
- * of the buffer, as a row of rays of the picture. Footprints are made for rays that were traced singly, and for
- * earlier rays that are marked as incomplete. */
+/* Like kd_frame_footprint, for a sampled map whose rows from `traced` on have just been sampled. row0: the first row of
+ * the buffer, as a row of rays of the picture. Footprints are made for rays that were traced singly, and for earlier
+ * rays that are marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
 /* The kernel of footprints. lattice: that of the listed pixels; NULL: rays of the grid. *out is NULL if no light needs
@@ -154,7 +155,7 @@ enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
 /* kd_frame_sample_march traces rays through volumes again for a sample of this band's pixels, both as in the picture
- * and more finely. The second function is called after all bands and writes the differences into the frame's accuracy.
+ * and more finely. kd_frame_march_error is called after all bands and writes the differences into the frame's accuracy.
  * Both functions do nothing if the scene has no volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);

@@ -1,7 +1,7 @@
-/* Layers of a frame, each with one value or a few for every pixel. The first layer is "rgb", the displayed picture;
- * if a single map is requested, "rgb" shows that map in false colour. Further layers may be "radiance" and maps by
- * their names (plan/layer_kinds.h). "radiance" is linear sRGB in units of the disk's largest surface brightness at g
- * = 1. In maps NaN means no value. */
+/* Layers of a frame, each with one value or a few for every pixel. The first layer is "rgb", the displayed picture; if
+ * a single map is requested, "rgb" shows that map in false colour. Further layers may be "radiance" and maps by their
+ * names (plan/layer_kinds.h). "radiance" is linear sRGB in units of the disk's largest surface brightness at g = 1; for
+ * light of one frequency, emit/radio.h has the unit. In maps NaN means no value. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H
 

@@ -67,9 +67,9 @@ static struct kd_map_scale extent_of(const float *values, size_t n, bool logarit
     return extent.low <= extent.high ? extent : (struct kd_map_scale) { logarithmic, logarithmic ? 10 : 1, false };
 }
 
-/* Ends of the colour scale. They come from the scene's fields if those are set, otherwise from the kind of layer if
- * it has ends, otherwise from the values. A diverging map is centred at 0, or at 1 if it is logarithmic, with both
- * ends equally far from the centre. */
+/* Ends of the colour scale. An end comes from the scene's field if that is set. Otherwise it comes from the kind of
+ * layer, or from the values if the kind has no ends. A diverging map is centred at 0, or at 1 if it is logarithmic,
+ * with both ends equally far from the centre. */
 static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values,
                                     size_t n)
 {

@@ -15,8 +15,8 @@ static inline uint32_t kd_frame_slice(const struct kd_frame_job *j, double ns, u
 {
     return kd_slice_items(&j->r->slice_pace, ns, left);
 }
-/* Like the function above, for items of which only an upper bound of the time is known. The time of these items is not
- * used to measure the device. */
+/* Like kd_frame_slice, for items of which only an upper bound of the time is known. The time of these items is not used
+ * to measure the device. */
 static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, double ns, uint32_t left)
 {
     const uint32_t items = kd_frame_slice(j, ns, left);

@@ -83,8 +83,8 @@ static int by_size(const void *a, const void *b)
 /* True if light is finite and the ray was not given up. A ray that was given up has the mark -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of the light of n rays, sorted. Returns their number. Rays that meet no volume have no
- * difference; a ray without valid light counts as 1. */
+/* Relative differences of the light of n rays, sorted. Returns their number. Rays whose light is the same, such as
+ * those that meet no volume, are left out. A ray without valid light counts as 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;

@@ -7,11 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures */
+/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures of one
+ * size */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
-/* upper bound of the relative difference between the fluxes of a picture of 48 pixels and one of 128 */
+/* relative error of the flux at which the search with 48 pixels ends: the flux of a picture of 128 pixels differs from
+ * that of 48 by no more */
 #define NEAR 1e-3
-/* relative error of the flux at which the search ends; a sum of floats is accurate to 1e-6 */
+/* relative error of the flux at which the search with 128 pixels ends; a sum of floats is accurate to 1e-6 */
 #define HELD 5e-5
 /* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field. The field grows at least as
  * the square root of the density, so the slope is at least 1.5. */
@@ -88,8 +90,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. Each time an
- * end of the bracket stays the same, the function value at that end is halved (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. When an end of
+ * the bracket stays the same twice, the function value at that end is halved (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
@@ -145,7 +147,7 @@ done:
 }
 
 /* Reduces the scene to the parts that determine the flux. For a series of grids, the time is set to the middle of the
- * series, so that one density serves all times. */
+ * series, so that one density serves all times. For other matter seen from infinity, the time is 0. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;

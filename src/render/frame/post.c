@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Uploads the table of style.palette from the host. */
+/* Makes the buffer with the colours of style.palette. */
 static enum kd_status make_palette(struct kd_frame_job *j)
 {
     struct kd_map_table *table = malloc(sizeof *table);

@@ -58,7 +58,7 @@ static struct kd_probed_stretch stretch_of(const struct record *r, uint32_t behi
     };
 }
 
-/* Makes room by joining two adjacent stretches that precede the same crossing. */
+/* Makes room by joining pairs of adjacent stretches that precede the same crossing. */
 static void join(struct kd_probed_ray *told)
 {
     struct kd_probed_stretch *s = told->stretches;

@@ -36,8 +36,8 @@ struct kd_probed_place {
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march. If there are
- * many parts, it is several adjacent ones. */
+/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march, or several
+ * adjacent parts if there are many. */
 struct kd_probed_stretch {
     uint32_t order;   /* order of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */

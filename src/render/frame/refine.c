@@ -1,10 +1,10 @@
 /* Refinement: traces more rays, in rounds, where one ray a pixel is not enough.
  *
- * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel
- * to pixel, a ray in the middle of each pixel is exact whatever the slope. So the criterion is the second difference
- * of displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of
- * pixels that changed are refined, until no pixel changes. A line or rim is thus followed to its end, even if one ray
- * a pixel hit it only in some places.
+ * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel to
+ * pixel, a ray in the middle of each pixel is exact whatever the slope. So the criterion is the second difference of
+ * displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of pixels
+ * that changed are refined, until no pixel changes, in at most KD_PLAN_ROUNDS rounds. A line or rim is thus followed to
+ * its end, even if one ray a pixel hit it only in some places.
  *
  * A chosen pixel has a square grid of rays. If the lens map is smooth around the pixel, these rays are interpolated
  * from existing rays. At edges of orders and fates they are traced. The total of traced rays is at most four times

@@ -1,9 +1,9 @@
 /* Measures the remaining error of a picture's pixels, by comparing a sample of pixels with 64 rays each. It is the last
  * pass, because it overwrites the light of the sample.
  *
- * All kinds of pixels have the same sample size, even a kind with few pixels, and are weighted by their number. At the
- * critical curve the reference may have more than 64 rays; pixels that already have this number of rays count as
- * exact. */
+ * Every kind of pixel has a sample of KD_PLAN_SAMPLED_OF_EACH pixels, or all its pixels if there are fewer. A sampled
+ * pixel is weighted by the number of pixels that it represents. At the critical curve the reference may have more than
+ * 64 rays; pixels that refinement has given this number of rays count as exact. */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"

@@ -23,7 +23,7 @@ static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const str
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* True if smooth cells are filled with crossings; false if they are filled with the ends of rays. */
+/* True if smooth cells must be filled: with the ends of rays if of_sky is true, otherwise with crossings. */
 static bool fills(const struct kd_plan_lens *lens, bool of_sky)
 {
     return of_sky ? kd_plan_holds(lens, KD_LENS_SKY) : lens->orders > 0;

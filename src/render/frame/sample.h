@@ -8,9 +8,9 @@
 
 #include "render/frame/job.h"
 
-/* Makes the map of at most sample_rows rows of pixels of a band: nodes, single rays, and the interpolation. The
- * commands are recorded, not submitted. The caller then settles undecided rays among the single rays, and computes
- * the footprints that are marked as missing (footprint.comp). */
+/* Makes the map of at most sample_rows rows of pixels of a band: nodes, single rays, and the interpolation. Some
+ * commands are submitted; the last ones are only recorded. The caller then settles undecided rays among the single
+ * rays, and computes the footprints that are marked as missing (footprint.comp). */
 enum kd_status kd_frame_sample(struct kd_frame_job *job, uint32_t band, uint32_t first, uint32_t count);
 /* Adds the counts of the sampled map to the job's counts. Call this after waiting for the device. */
 void kd_frame_count_sampled(struct kd_frame_job *job, uint32_t count);

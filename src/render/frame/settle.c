@@ -1,6 +1,6 @@
-/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. Such rays are few.
- * The host traces them again in closed form in double precision. It writes the results into the lens map before the
- * map is read. */
+/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. Such rays are few. The
+ * host traces them again in double precision: in closed form, or by steps for an observer inside the horizon. It writes
+ * the results into the lens map before the map is read. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"

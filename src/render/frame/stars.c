@@ -60,7 +60,8 @@ static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
 }
 
-/* The number of stars is not known yet. The catalogue's number is used, because no sky has more. */
+/* The number of entries of the star buffer is not known yet. 2^17 is used, which is above the number of stars of the
+ * catalogue; no sky has more stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->light.bright, texels = reads_texels(j, 1u << 17);

@@ -60,8 +60,8 @@ static bool other_fate(float fate, const struct kd_ray_end *end)
            (fate == (float)KD_FATE_ESCAPED) != (end->fate == KD_RAY_ESCAPED);
 }
 
-/* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings, and begin `width`
- * numbers apart. */
+/* Compares the map's radii and fates with those of the closed form. The planes hold w of `orders` crossings, and begin
+ * `width` numbers apart. */
 static void compare(const struct kd_plan_lens *lens, const struct sample *s, const uint32_t *place, uint32_t n,
                     double inner, struct kd_accuracy_report *out)
 {

@@ -8,7 +8,7 @@
 #include "render/rays/rays.h"
 
 /* The map must be complete. If plan->lens.audit is 0, out->sampled becomes 0. Only radii from the ISCO to 1000 M are
- * compared, because the disk has no gas closer in, and no light comes from further out. */
+ * compared, as in the accuracy table (accuracy/table.h). */
 enum kd_status kd_audit(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                         const struct kd_lens_map *map, struct kd_accuracy_report *out, struct kd_error *error);
 

@@ -285,7 +285,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
         const struct kd_null_place *p = &places[k];
         const bool inwards = places[k + 1].r < p->r;
         if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
-            continue; /* skipped as in the kernel, because a ray on its way out may be inside the horizon */
+            continue; /* as in the kernel, a ray ends at the horizon on its way in; on its way out it may be inside */
         const double twist = p->r > horizon ? kd_kerr_twist(&at.hole, p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };

@@ -1,6 +1,6 @@
 /* Makes the lens map of a picture from listed rays, for scenes that request it. Any engine may trace these rays, in
- * double precision, and the camera is computed in double. This is slower than the kernels that derive each ray from
- * its pixel, because listed rays pass through the host. Render thread. */
+ * either precision. The camera is computed in double. This is slower than the kernels that derive each ray from its
+ * pixel, because listed rays pass through the host. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H
 
