@@ -108,8 +108,8 @@ def main():
     finally:
         server.terminate()
     h = measure.head(device, load)
-    text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, against 64 rays a pixel", h)
-    text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, square roots of linear light; 1 is the truth's.\n\n"
+    text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, compared with 64 rays a pixel", h)
+    text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, as square roots of linear light. 1 is the value with 64 rays a pixel.\n\n"
     text += measure.table(
         [
             "inclination",

@@ -201,15 +201,15 @@ def main():
         server.wait()
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
     text = measure.head_markdown("The page in Chromium, %d × %d" % tuple(WINDOW.values()), h)
-    text += f"First picture: {first} ms after the start of the page (asked for: less than 500), the median of five.\n\n"
+    text += f"First picture: {first} ms after the start of the page (target: below 500), the median of five.\n\n"
     text += measure.table(
         [
             "what moves",
             "frames/s",
-            "asked for",
-            "width of the picture, of the window",
+            "target",
+            "width of the picture and of the window",
             "server, ms",
-            "of it encoding",
+            "of this, encoding",
             "browser, ms",
             "kB",
         ],
