@@ -150,7 +150,7 @@ def main():
         ["source", "a", "i", "difference of the cumulative share"],
         [[what, f"{spin:g}", f"{i}°", f"{off:.1e}"] for what, spin, i, off in lines],
     )
-    names = ["a", "height, M", "i", "frequency, c³/GM", "lag by kerrd, M", "by kerrz", "difference", "difference minus mean difference"]
+    names = ["a", "height, M", "i", "frequency, c³/GM", "lag by kerrd, M", "by kerrz", "difference", "minus mean"]
     rows = []
     for k in range(0, len(lags), len(FREQUENCIES)):
         lamp = lags[k : k + len(FREQUENCIES)]

@@ -111,7 +111,7 @@ def main():
         rows,
     )
     text += (
-        "\nPasses are timed by the device's timestamps; \"render, wall\" is wall time of all on the host. Encode 1 is the "
+        "\nPass times are the device's timestamps. \"render, wall\" is the host's wall time for all. Encode 1 is the "
         'PNG of the live\nview, encode 6 that of a file. "to PNG" is render plus encode.\n\n'
     )
     text += "`kerrd render -o frame.png` from start to exit, default scene, kernels cached: "

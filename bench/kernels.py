@@ -73,8 +73,8 @@ def registers(program, family, out, load):
     h = measure.head(f"RADV {family}, {made['driver']} {made['driver_info']}", load)
     text = measure.head_markdown(f"Registers of the kernels of {len(SCENES)} scenes on {family}", h)
     text += (
-        f"{len(rows)} variants. {spilled[0]} spill vector registers. {spilled[1]} spill scalar registers, to lanes of a "
-        f"vector register instead of memory. {spilled[2]} use scratch memory.\n\n"
+        f"{len(rows)} variants. {spilled[0]} spill vector registers. {spilled[1]} spill scalar registers, to lanes of "
+        f"a vector register instead of memory. {spilled[2]} use scratch memory.\n\n"
     )
     text += measure.table(["kernel", *SHOWN, "scenes"], [row for _, row in rows])
     measure.save(out, "kernels", h, made, text)

@@ -131,7 +131,7 @@ def main():
     text = measure.head_markdown(f"The landing in Chromium beside {arguments.busy} busy processes", h)
     text += f"Target: no picture narrower than {LEAST:g} of the view's width.\n\n"
     text += measure.table(
-        ["window", "visible", "seconds", "width of the picture, pixels", "width of the view, CSS pixels", "least ratio"],
+        ["window", "visible", "seconds", "width of the picture, pixels", "width of the view, CSS pixels", "ratio"],
         [written(name, row) for name, seen in found.items() for row in spans(seen, arguments.seconds)],
     )
     measure.save(arguments.out, "landing", h, {"busy": arguments.busy, "windows": found}, text)

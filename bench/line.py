@@ -137,7 +137,7 @@ def main():
         "--rounds", type=int, default=5, help="rounds over all pairs, in alternation with the other build (5)"
     )
     p.add_argument("--repeat", type=int, default=5, help="runs of each pair in a round; the least of all counts (5)")
-    p.add_argument("--profiles", type=int, default=400, help="profiles of each kind that are requested from the server (400)")
+    p.add_argument("--profiles", type=int, default=400, help="requests to the server for each kind of profile (400)")
     p.add_argument(
         "--directions", type=int, default=0, help="directions of the oracle for the true error; 0: no comparison (0)"
     )

@@ -263,20 +263,20 @@ def main():
     text = measure.head_markdown("kerrd and kerrz", h)
     text += (
         f"a = {SPIN}, i = {INCLINATION:g}°, ±{HALF_WIDTH} M, {o.side} × {o.side} rays; {o.rounds} rounds in alternation, "
-        "one thread on one core.\nFigures are medians of the rounds; ratios are medians of each round's ratio. Other work "
-        "disturbed the best\nround least. Errors are relative errors of the first crossing's radius.\n\n"
+        "one thread on one core.\nFigures are medians of the rounds. A ratio is the median of each round's ratio. The best "
+        "round is the one\nthat other work disturbed least. Errors are relative errors of the first crossing's radius.\n\n"
     )
     text += measure.table(
         ["computes", "code", "method", "rays/s/core", "ratio", "best round", "ratio", "r: median", "worst"], rows
     )
     text += (
-        f"\nThe observer is at infinity for kerrd and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity. Its "
+        f"\nThe observer is at infinity for kerrd, and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity. Its "
         f"radii differ from\nthose at infinity by {errors['r_median_to_infinity']:.0e} (median). Its errors are computed "
         "for its own start and constants of motion, so that this\ndifference is not counted.\n\n"
-        "kerrd's time is that of the trace pass, by the device's timestamps (camera to crossings in memory, three "
-        "crossings a ray\nunless the table says one). kerrz's time is the one that its `image` command prints (camera to mapped "
-        "value), which\nexcludes its startup and the writing of the file. kerrz follows a ray to a second crossing only where the first "
-        "misses its disk, and computes only\nwhat its mapper needs. Delays are measured for listed rays, in wall time of the host. "
+        "kerrd's time is that of the trace pass, by the device's timestamps (camera to crossings in memory; three "
+        "crossings a ray,\nunless the table says one). kerrz's time is the one that its `image` command prints (camera to mapped value).\n"
+        "It excludes startup and the writing of the file. kerrz follows a ray to a second crossing only where the first misses its disk,\n"
+        "and computes only what its mapper needs. Delays are measured for listed rays, in wall time of the host. "
         f"For r, t and φ of a crossing AART computes\n{thousands(AART)} rays/s and core, geokerr {thousands(GEOKERR)}, "
         "measured earlier on a machine of the same kind.\n\n## Through volumes\n\n"
         f"Blacklight follows some {thousands(radio.BLACKLIGHT)} rays/s and core of gold-1, unpolarised, and ipole "

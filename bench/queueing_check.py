@@ -68,7 +68,7 @@ def go_first():
     try:
         os.setpriority(os.PRIO_PROCESS, 0, PRIORITY - 10)
     except PermissionError:
-        print("no permission to raise this process's priority: measured answers are some milliseconds late", file=sys.stderr)
+        print("no permission to raise this script's priority: answers are measured some ms late", file=sys.stderr)
 
 
 def free_port():

@@ -292,7 +292,7 @@ def tables(r):
     )
     text += f"\nVisitors who drag for {STROKES['drag']:g} s and rest for {STROKES['rest']:g} on average:\n\n"
     text += measure.table(
-        ["visitors a server", "servers", "input to picture, ms: median", "95 %", "fraction of time that devices are busy"],
+        ["visitors a server", "servers", "input to picture, ms: median", "95 %", "devices busy"],
         [
             [str(x["each"]), str(x["n"]), ms(x["median_s"]), ms(x["p95_s"]), f"{100 * x['busy']:.0f} %"]
             for x in r["visitors"]

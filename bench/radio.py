@@ -130,7 +130,7 @@ def main():
         "On a machine with other work, startup times vary by a tenth of a second. A rate is reliable if the difference of the times is much larger.\n\n"
     )
     text += measure.table(
-        ["scene", "k rays/s and core", "compared with others", "processor time of both pictures, s", "error, 90th percentile"],
+        ["scene", "k rays/s and core", "compared with others", "processor time of both, s", "error, 90th percentile"],
         rows,
     )
     measure.save(o.out, "radio", h, {"figures": figures}, text)

@@ -184,7 +184,7 @@ def tables(r):
         [
             "1280 × 720",
             "device s: median (least to most)",
-            "when only the time changes",
+            "device s when only the time changes",
             "PNG, s",
             "processor s, all",
         ],

@@ -547,7 +547,7 @@ def main():
         "--pace",
         type=float,
         default=2,
-        help="largest number of actions of a client in a second (2), so that the load does not depend on other work of the machine",
+        help="most actions of a client in a second (2), so that the load does not depend on the machine's other work",
     )
     p.add_argument("--seed", type=int, default=1)
     p.add_argument("--kills", type=int, default=0, help="number of times that the server is killed (0)")
