@@ -380,7 +380,7 @@ def main():
             "load of another client",
             "pictures",
             f"{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst",
-            "frames/s of its session",
+            "frames/s of the measured session",
             "/healthz, ms: median / worst",
             "delay of a sleep, ms: worst",
         ],

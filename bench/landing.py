@@ -99,7 +99,7 @@ def main():
 
     p = measure.parser(__doc__.splitlines()[0])
     p.add_argument("--busy", type=int, default=8, help="processes that keep the processors busy (8)")
-    p.add_argument("--seconds", type=int, default=10, help="of each window (10)")
+    p.add_argument("--seconds", type=int, default=10, help="seconds for each window (10)")
     p.add_argument("--pictures", type=pathlib.Path, help="folder for a screenshot each second; default: none")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     if arguments.pictures:

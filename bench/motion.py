@@ -83,7 +83,7 @@ def figures(light, truth):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--inclinations", default="85,60", help="degrees (85,60)")
+    p.add_argument("--inclinations", default="85,60", help="inclinations in degrees (85,60)")
     o = p.parse_args()
     kerrd = measure.binary(o.build, "src/kerrd")
     load = os.getloadavg()[0]
@@ -116,7 +116,7 @@ def main():
             "rays a pixel",
             "variance in time",
             "of the finest tenth",
-            "steps from frame to frame",
+            "changes from frame to frame",
             "off by, of white",
         ],
         [

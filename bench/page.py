@@ -179,7 +179,7 @@ def main():
     from playwright.sync_api import sync_playwright
 
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--seconds", type=float, default=6, help="of each row (6)")
+    p.add_argument("--seconds", type=float, default=6, help="seconds for each row (6)")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     server = subprocess.Popen(
         [measure.binary(arguments.build, "src/kerrd"), "serve", "--port", "0"], stdout=subprocess.PIPE, text=True

@@ -377,7 +377,7 @@ def tables(rows, naps):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--pictures", type=int, default=600, help="of each run (600)")
+    p.add_argument("--pictures", type=int, default=600, help="pictures in each run (600)")
     p.add_argument(
         "--rounds",
         type=int,

@@ -314,9 +314,9 @@ def tables(r):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("plan", type=pathlib.Path, help="of bench/scale_plan.py")
-    p.add_argument("queueing", type=pathlib.Path, help="of bench/queueing_check.py")
-    p.add_argument("--plot", help="SVG")
+    p.add_argument("plan", type=pathlib.Path, help="JSON result of bench/scale_plan.py")
+    p.add_argument("queueing", type=pathlib.Path, help="JSON result of bench/queueing_check.py")
+    p.add_argument("--plot", help="SVG file for the plot")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     plan, checked = (json.loads(path.read_text()) for path in (arguments.plan, arguments.queueing))
     measured, (habits, rows) = checked["pictures"], habits_of(plan)

@@ -84,8 +84,8 @@ def main():
     import numpy as np
 
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--scenes", type=int, default=1000, help="how many (1000)")
-    p.add_argument("--size", default="64x48", help="of each (64x48)")
+    p.add_argument("--scenes", type=int, default=1000, help="number of scenes (1000)")
+    p.add_argument("--size", default="64x48", help="size of each scene (64x48)")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     binary = str(pathlib.Path(measure.binary(arguments.build, "src/kerrd")).resolve())
     width, height = map(int, arguments.size.split("x"))
