@@ -391,7 +391,7 @@ ROW_HEADS = [
     "frames/s",
     "input to picture, ms: median / 95 %",
     "at full size",
-    "last",
+    "size at the end",
     "passes, ms (median; only of frames that trace rays, if enough do)",
 ]
 
