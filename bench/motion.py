@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures the shimmer of gas that moves by a tenth of a pixel a frame, with one ray a pixel compared with 64. The gas is
-seen from 5 and from 30 degrees above its plane.
+"""Measures the shimmer of gas that moves by a tenth of a pixel a frame, with one ray a pixel compared with 64. The gas
+is seen from 5 and from 30 degrees above its plane.
 
     bench/motion.py            about five minutes, on an idle machine
 

@@ -1,5 +1,5 @@
 // Sliders and arrow keys for a number with known range, unit and default: { minimum, maximum, unit, default, type }.
-const decades = 30; // if the ends of a range have at least this ratio, its slider is logarithmic
+const decades = 30; // if the ends of a range have a greater ratio, its slider is logarithmic
 const positions = 1000;
 
 // Returns the scale of a range and its inverse, or null if the slider is linear. A wide range is logarithmic. If such a
