@@ -249,14 +249,14 @@ def table(results):
     if "ring" in results:
         lines += [
             "",
-            "Noise at the critical curve, smooth disk, of white: "
+            "Noise at the critical curve, smooth disk, as a fraction of white: "
             + ", ".join(f"{k} {v:.2e}" for k, v in results["ring"].items() if k != "pixels")
             + ".",
         ]
     if "ring_ms" in results:
         ms = results["ring_ms"]
         lines += [
-            "Time over that without: "
+            "Additional time, relative to a factor of 1: "
             + ", ".join(f"{k} {100 * (v / ms['factor 1'] - 1):+.1f} %" for k, v in ms.items())
             + "."
         ]
@@ -265,7 +265,7 @@ def table(results):
 
 def main():
     parser = measure.parser(__doc__.splitlines()[0])
-    parser.add_argument("--only", help="scenes whose name holds this")
+    parser.add_argument("--only", help="only scenes whose name contains this")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--no-times", action="store_true")
     options = parser.parse_args()

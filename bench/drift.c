@@ -158,8 +158,7 @@ static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) 
  * copy, and a rotation binds the two. Adjacent sub-steps of the first kind are merged. The value of omega used here is
  * the best for matter among 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and 10. With a smaller omega the binding is too weak, and
  * the copies separate within a hundred loops. A larger omega costs accuracy. For light inside the inner horizon no
- * value is large
- * enough. */
+ * value is large enough. */
 #define OMEGA 0.3
 
 static void move(const struct orbit *o, double *x, double *p, double *other_x, double *other_p, double h)

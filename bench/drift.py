@@ -80,7 +80,7 @@ def plot(figures, path):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--plot", metavar="FILE.svg", help="draw it here")
+    p.add_argument("--plot", metavar="FILE.svg", help="file for the plot")
     o = p.parse_args()
     load = os.getloadavg()[0]
     figures = json.loads(measure.one_core([measure.binary(o.build, "bench/kd_bench_drift")], o.core))

@@ -144,13 +144,13 @@ def main():
             off = line_beside(o, folder, spin, i, *source(spin, height, i, radius))
             lines.append((f"ring at {radius} M, {height} M high, corotating", spin, i, off))
     head = measure.head("cpu, double precision, no device", load)
-    text = measure.head_markdown("Lines and lags of coronae beside kerrz 0.4.1", head)
+    text = measure.head_markdown("Lines and lags of coronae compared with kerrz 0.4.1", head)
     text += __doc__.split("\n\n")[2].split(" Writes")[0] + "\n\n"
     text += measure.table(
         ["source", "a", "i", "difference of the cumulative share"],
         [[what, f"{spin:g}", f"{i}°", f"{off:.1e}"] for what, spin, i, off in lines],
     )
-    names = ["a", "height, M", "i", "frequency, c³/GM", "lag by kerrd, M", "by kerrz", "difference", "less their mean"]
+    names = ["a", "height, M", "i", "frequency, c³/GM", "lag by kerrd, M", "by kerrz", "difference", "minus mean"]
     rows = []
     for k in range(0, len(lags), len(FREQUENCIES)):
         lamp = lags[k : k + len(FREQUENCIES)]

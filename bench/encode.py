@@ -62,8 +62,8 @@ def threads_table(rows):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--repeat", type=int, default=9, help="times that each encoder gets each picture (9)")
-    p.add_argument("--threads", type=int, default=os.cpu_count(), help="threads of files, at most (the cores)")
+    p.add_argument("--repeat", type=int, default=9, help="runs of each encoder on each picture (9)")
+    p.add_argument("--threads", type=int, default=os.cpu_count(), help="most threads for files (number of cores)")
     o = p.parse_args()
     load = os.getloadavg()[0]
     text = measure.one_core([measure.binary(o.build, "bench/kd_bench_encode"), "--repeat", str(o.repeat)], o.core)
@@ -75,8 +75,8 @@ def main():
     h = measure.head(run["device"], load)
     text = measure.head_markdown("Encoding a frame", h)
     text += (
-        f"Processor time of one thread, the least of {o.repeat}; 1 kB is 1000 bytes. All at level 1 after the filter Sub, "
-        "the file whole:\n\n" + whole_table(run["pictures"])
+        f"Processor time of one thread, the least of {o.repeat} runs. 1 kB is 1000 bytes. Whole files, at level 1 "
+        "after the filter Sub:\n\n" + whole_table(run["pictures"])
     )
     for picture in run["pictures"]:
         size, name = title(picture)
@@ -84,7 +84,7 @@ def main():
             text += f"\n{name[0].upper() + name[1:]}, {size}; filter and stream, ms / kB by filter and level:\n\n"
             text += parts_table(picture)
     text += (
-        f"\nThe default scene by kerrd's encoders on threads, by the clock on the wall, the least of {o.repeat}:\n\n"
+        f"\nThe default scene encoded by kerrd on several threads: wall time, the least of {o.repeat} runs:\n\n"
         + threads_table(threads)
     )
     measure.save(o.out, "encode", h, {"pictures": run["pictures"], "threads": threads}, text)

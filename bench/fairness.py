@@ -337,17 +337,17 @@ def run_one(path, name, seconds, options=(), size=SIZE, session=True):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--seconds", type=float, default=20, help="that each load is watched for (20)")
-    p.add_argument("--only", choices=LOADS, action="append", help="this load alone")
-    p.add_argument("--no-session", action="store_true", help="the one who is measured asks for pictures alone")
-    p.add_argument("--save", metavar="NAME", help="also what --only has run, under this name")
+    p.add_argument("--seconds", type=float, default=20, help="seconds of measurement for each load (20)")
+    p.add_argument("--only", choices=LOADS, action="append", help="only this load")
+    p.add_argument("--no-session", action="store_true", help="the measured client requests pictures only")
+    p.add_argument("--save", metavar="NAME", help="save the results of --only too, under this name")
     p.add_argument(
         "--size",
         type=int,
         nargs=2,
         default=SIZE,
         metavar=("WIDTH", "HEIGHT"),
-        help="of the picture that is measured (320 180)",
+        help="width and height of the measured picture (320 180)",
     )
     arguments, load = p.parse_args(), os.getloadavg()[0]
     path = measure.binary(arguments.build, "src/kerrd")
@@ -374,15 +374,15 @@ def main():
         for name, r in results.items()
     ]
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
-    text = measure.head_markdown("What one client may make another one wait", h)
+    text = measure.head_markdown("How long one client can make another wait", h)
     text += measure.table(
         [
             "load of another client",
             "pictures",
             f"{arguments.size[0]} × {arguments.size[1]} picture, ms: median / worst",
-            "frames/s of an own session",
+            "frames/s of the measured session",
             "/healthz, ms: median / worst",
-            "a sleep is late, ms: worst",
+            "delay of a sleep, ms: worst",
         ],
         rows,
     )

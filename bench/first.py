@@ -92,7 +92,7 @@ def device_of(program):
 def main():
     p = measure.parser(__doc__.splitlines()[0])
     p.add_argument("--before", type=pathlib.Path, help="another kerrd, to compare with")
-    p.add_argument("--rounds", type=int, default=5, help="servers of each preset (5)")
+    p.add_argument("--rounds", type=int, default=5, help="servers started for each preset (5)")
     p.add_argument(
         "--no-driver-cache", action="store_true", help="Mesa keeps no kernels: each process compiles its own"
     )
@@ -120,7 +120,7 @@ def main():
         for (preset, name), all_ in runs.items()
     ]
     text = measure.head_markdown("The first picture of a process, %d × %d" % tuple(SIZE.values()), h)
-    text += f"Medians of {o.rounds} processes each; Mesa keeps {'no kernels' if o.no_driver_cache else 'kernels of earlier processes on disk'}.\n\n"
+    text += f"Medians of {o.rounds} processes each. Mesa keeps {'no kernels' if o.no_driver_cache else 'kernels of earlier processes on disk'}.\n\n"
     text += measure.table(
         ["preset", "program", "first POST of a server, ms", "second, ms", "`kerrd render`, s", "of the processors, s"],
         rows,

@@ -48,9 +48,9 @@ def medians(runs):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--rounds", type=int, default=3, help="runs with each number of threads, in turn (3)")
+    p.add_argument("--rounds", type=int, default=3, help="runs with each number of threads, in alternation (3)")
     p.add_argument(
-        "--before", type=pathlib.Path, help="another build directory, whose frames are timed in turn with this one's"
+        "--before", type=pathlib.Path, help="another build directory, which is measured in alternation with this one"
     )
     p.add_argument("--repeat", type=int, default=9, help="frames of each kind in a run (9)")
     o = p.parse_args()
@@ -111,7 +111,7 @@ def main():
         rows,
     )
     text += (
-        "\nThe passes are the device's timestamps; \"render, wall\" is the host's clock round all of them. Encode 1 is the "
+        "\nPass times are the device's timestamps. \"render, wall\" is the host's wall time for all. Encode 1 is the "
         'PNG of the live\nview, encode 6 that of a file. "to PNG" is render plus encode.\n\n'
     )
     text += "`kerrd render -o frame.png` from start to exit, default scene, kernels cached: "

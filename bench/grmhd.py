@@ -88,10 +88,10 @@ def rate(program, grid, sizes, core, rounds):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--nodes", type=int, nargs=3, default=[192, 96, 96], help="of the dumps that are compared")
+    p.add_argument("--nodes", type=int, nargs=3, default=[192, 96, 96], help="nodes of the compared dumps")
     p.add_argument("--pixels", type=int, default=96, help="pixels along a side of the compared pictures (96)")
     p.add_argument(
-        "--rates", nargs="*", default=["192x96x96", "256x256x128"], help="nodes of grids whose rays are timed"
+        "--rates", nargs="*", default=["192x96x96", "256x256x128"], help="nodes of the grids for rays a second"
     )
     p.add_argument("--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the timed pictures")
     p.add_argument("--rounds", type=int, default=2, help="timed runs of each picture (2)")

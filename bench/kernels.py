@@ -73,8 +73,8 @@ def registers(program, family, out, load):
     h = measure.head(f"RADV {family}, {made['driver']} {made['driver_info']}", load)
     text = measure.head_markdown(f"Registers of the kernels of {len(SCENES)} scenes on {family}", h)
     text += (
-        f"{len(rows)} variants. Vector registers are spilled by {spilled[0]}, scalar ones (to lanes of a vector "
-        f"register, not to memory) by {spilled[1]}; {spilled[2]} use scratch memory.\n\n"
+        f"{len(rows)} variants. {spilled[0]} spill vector registers. {spilled[1]} spill scalar registers, to lanes of "
+        f"a vector register instead of memory. {spilled[2]} use scratch memory.\n\n"
     )
     text += measure.table(["kernel", *SHOWN, "scenes"], [row for _, row in rows])
     measure.save(out, "kernels", h, made, text)
@@ -85,7 +85,7 @@ def compile_times(program, out, load):
     kernels = sorted(made["kernels"], key=lambda k: -k["pipeline_ms"] - k["dispatch_ms"])
     h = measure.head(made["device"], load)
     text = measure.head_markdown(f"Compile times of the kernels of {len(SCENES)} scenes", h)
-    text += "Milliseconds of the processor. Scenes, all their kernels together:\n\n"
+    text += "Processor time in ms. Sums over all kernels of a scene:\n\n"
     sums = {s: sum(k["pipeline_ms"] + k["dispatch_ms"] for k in kernels if s in k["scenes"]) for s in SCENES}
     text += measure.table(["scene", "ms"], [[s, f"{ms:.0f}"] for s, ms in sums.items()])
     text += "\nKernels:\n\n" + measure.table(

@@ -90,7 +90,7 @@ def written(name, row):
         f"{row['from']:.1f} to {row['to']:.1f}",
         f"{min(widths)}" if min(widths) == max(widths) else f"{min(widths)} to {max(widths)}",
         str(row["view"]),
-        "–" if row["what"] == "nothing" else f"{least:.2f}" + (", less than asked" if least < LEAST else ""),
+        "–" if row["what"] == "nothing" else f"{least:.2f}" + (", below the target" if least < LEAST else ""),
     ]
 
 
@@ -98,9 +98,9 @@ def main():
     from playwright.sync_api import sync_playwright
 
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--busy", type=int, default=8, help="processes that compute meanwhile (8)")
-    p.add_argument("--seconds", type=int, default=10, help="of each window (10)")
-    p.add_argument("--pictures", type=pathlib.Path, help="where a screenshot a second goes; none by default")
+    p.add_argument("--busy", type=int, default=8, help="processes that keep the processors busy (8)")
+    p.add_argument("--seconds", type=int, default=10, help="seconds for each window (10)")
+    p.add_argument("--pictures", type=pathlib.Path, help="folder for a screenshot each second; default: none")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     if arguments.pictures:
         arguments.pictures.mkdir(parents=True, exist_ok=True)
@@ -129,9 +129,9 @@ def main():
             process.wait()
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
     text = measure.head_markdown(f"The landing in Chromium beside {arguments.busy} busy processes", h)
-    text += f"Asked for: no picture narrower than {LEAST:g} of the view.\n\n"
+    text += f"Target: no picture narrower than {LEAST:g} of the view's width.\n\n"
     text += measure.table(
-        ["window", "visible", "seconds", "width of the picture, pixels", "of the view, CSS pixels", "least share"],
+        ["window", "visible", "seconds", "width of the picture, pixels", "width of the view, CSS pixels", "ratio"],
         [written(name, row) for name, seen in found.items() for row in spans(seen, arguments.seconds)],
     )
     measure.save(arguments.out, "landing", h, {"busy": arguments.busy, "windows": found}, text)

@@ -182,8 +182,8 @@ def main():
     text = measure.head_markdown("A class that follows a teacher's session", h)
     text += (
         f"{o.pupils} pupils and the teacher fetch the frames of one session of 480 × 270, while the teacher changes the "
-        "inclination twenty times a second. All of them share the machine with the server. Seen: from the teacher's change "
-        "to the first frame of it at a pupil, over all changes and pupils.\n\n"
+        "inclination twenty times a second. All of them share the machine with the server. Seen after: time from the "
+        "teacher's change to the first frame that shows it at a pupil, over all changes and pupils.\n\n"
     )
     text += measure.table(
         [
@@ -196,8 +196,8 @@ def main():
             "width",
             "kB a frame",
             "Mbit/s, all pupils",
-            "cores of the server",
-            "all have answered after, s",
+            "cores used by the server",
+            "time until all have answered, s",
         ],
         [
             [

@@ -132,12 +132,12 @@ def total(row):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--tolerance", type=float, default=0.003, help="of the cumulative share (0.003)")
+    p.add_argument("--tolerance", type=float, default=0.003, help="tolerance of the cumulative share (0.003)")
     p.add_argument(
-        "--rounds", type=int, default=5, help="rounds over all pairs, in turn with those of the other build (5)"
+        "--rounds", type=int, default=5, help="rounds over all pairs, in alternation with the other build (5)"
     )
     p.add_argument("--repeat", type=int, default=5, help="runs of each pair in a round; the least of all counts (5)")
-    p.add_argument("--profiles", type=int, default=400, help="that the server is asked for, of each kind (400)")
+    p.add_argument("--profiles", type=int, default=400, help="requests to the server for each kind of profile (400)")
     p.add_argument(
         "--directions", type=int, default=0, help="directions of the oracle for the true error; 0: no comparison (0)"
     )
@@ -156,27 +156,27 @@ def main():
     process = alone(measure.binary(o.build, "src/kerrd"), 50, o.tolerance)
     h = measure.head("cpu, double precision, no device", load)
     text = measure.head_markdown("Line profiles a second and core", h)
-    text += f"500 bins, r⁻³ from the ISCO to 400 M, tolerance {o.tolerance:g}, by the processor's own time, the least of {o.rounds * o.repeat}. Cold, each of another spin and inclination:\n\n"
+    text += f"500 bins, r⁻³ from the ISCO to 400 M, tolerance {o.tolerance:g}, processor time, the least of {o.rounds * o.repeat} runs. Profiles per second and core, cold (each with another spin and inclination):\n\n"
     text += (
         by_pair(rows, lambda r: f"{1e3 / total(r):.0f}")
-        + "\nWarm, the table kept:\n\n"
+        + "\nWarm, with the table cached:\n\n"
         + by_pair(rows, lambda r: f"{1e3 / r['sum_ms']:.0f}")
     )
-    text += "\nMs of the table and of the sum, cold:\n\n" + by_pair(
+    text += "\nMilliseconds for the table and for the sum, cold:\n\n" + by_pair(
         rows, lambda r: f"{r['table_ms']:.2f} + {r['sum_ms']:.2f}"
     )
     if before:
-        text += "\nTimes as fast as the other build, cold:\n\n" + by_pair(
+        text += "\nSpeed relative to the other build, cold:\n\n" + by_pair(
             {k: total(before[k]) / total(r) for k, r in rows.items()}, lambda x: f"{x:.2f}"
         )
     if o.directions:
         text += (
-            f"\nError of the cumulative share, told and true (beside triangles between rays, {o.directions} directions):\n\n"
+            f"\nError of the cumulative share, estimated and true (by triangles between rays, {o.directions} directions):\n\n"
             + by_pair(rows, lambda r: f"{r['told']:.1e}, {r['true']:.1e}")
         )
     text += (
-        f"\n`POST /v1/line` on one keep-alive connection, {o.profiles} profiles each, all of the server's time: cold from spins −0.998 to 0.998 and 3° to 80°, evenly drawn; warm one "
-        "pair, whose emissivity changes.\n\n"
+        f"\n`POST /v1/line` on one keep-alive connection, {o.profiles} profiles each, processor time of the whole server. Cold: random spins from −0.998 to 0.998 and inclinations from 3° to 80°. Warm: one "
+        "pair, with changing emissivity.\n\n"
     )
     text += measure.table(
         ["", "server's ms a profile", "profiles a second and core", "wall, ms"],

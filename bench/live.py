@@ -287,7 +287,7 @@ def compare(programs, rounds=3):
 TOGETHER = [
     "frames/s each: least, median, most",
     "input to picture, ms: median / worst 95 %",
-    "size at last: smallest, largest",
+    "final size: smallest, largest",
     "device busy",
     "processor a frame, ms",
 ]
@@ -391,8 +391,8 @@ ROW_HEADS = [
     "frames/s",
     "input to picture, ms: median / 95 %",
     "at full size",
-    "last",
-    "passes, ms (median; of frames that trace, where many do)",
+    "size at the end",
+    "passes, ms (median; only of frames that trace rays, if enough do)",
 ]
 
 
@@ -428,7 +428,7 @@ def write_compared(arguments, device, load, out):
         for row in [out[name][n][i]]
     ]
     text = measure.head_markdown(
-        "Sessions dragged at once before a sky, %d × %d, before and after in turn" % tuple(SIZE.values()), h
+        "Sessions dragged at once, with a sky, %d × %d, both programs in alternation" % tuple(SIZE.values()), h
     )
     measure.save(arguments.out, "sharing", h, out, text + measure.table(["sessions", "program", *TOGETHER], rows))
 
@@ -436,8 +436,8 @@ def write_compared(arguments, device, load, out):
 def main():
     parser = measure.parser(__doc__.splitlines()[0])
     parser.add_argument("--before", type=pathlib.Path, help="another kerrd, to compare with")
-    parser.add_argument("--presets", nargs="+", help="these presets alone")
-    parser.add_argument("--sized", nargs="+", help="the presets in frames of these sizes, as 536x400")
+    parser.add_argument("--presets", nargs="+", help="only these presets")
+    parser.add_argument("--sized", nargs="+", help="the presets in frames of these sizes, such as 536x400")
     arguments, load = parser.parse_args(), os.getloadavg()[0]
     program = measure.binary(arguments.build, "src/kerrd")
     if arguments.sized:
@@ -505,8 +505,8 @@ def write(arguments, device, load, result):
     )
     text += f"""
 - First picture of a session on a warm server: {result["first_picture_ms"]} ms.
-- {v["viewers"]} viewers of one session took {v["frames_taken"]} frames, of which {v["frames_drawn"]} were drawn.
-- {i["connections"]} connections that wait: {i["cpu_percent"]} % of a core ({i["cpu_percent_without"]} % without them).
+- {v["viewers"]} viewers of one session received {v["frames_taken"]} frames, of which {v["frames_drawn"]} were rendered.
+- {i["connections"]} waiting connections: {i["cpu_percent"]} % of a core ({i["cpu_percent_without"]} % without them).
 - {m["frames"]} frames in {m["seconds"]} s: {m["memory_mib_before"]} MiB resident before, {m["memory_mib_after"]} after.
 """
     measure.save(arguments.out, "live", h, result, text)

@@ -138,8 +138,8 @@ def failed(load):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--seconds", type=int, default=60, help="that each part of a round takes (60)")
-    p.add_argument("--rounds", type=int, default=2, help="without the load and beside it (2)")
+    p.add_argument("--seconds", type=int, default=60, help="duration of each part of a round in seconds (60)")
+    p.add_argument("--rounds", type=int, default=2, help="rounds, each without and with the load (2)")
     p.add_argument("--connections", type=int, default=200)
     p.add_argument("--wrk-nice", type=int, default=19, help="the nice level of wrk (19)")
     arguments, before = p.parse_args(), os.getloadavg()[0]
@@ -165,20 +165,20 @@ def main():
         ]
         for r in rounds
     ]
-    text = measure.head_markdown(f"{arguments.connections} connections beside a session that is dragged", h)
+    text = measure.head_markdown(f"{arguments.connections} connections beside a dragged session", h)
     text += measure.table(
         [
-            "frames/s alone",
-            "beside the load",
-            "of these",
-            "longest gap, ms: alone / beside",
+            "frames/s without the load",
+            "with the load",
+            "ratio",
+            "longest gap, ms: without / with",
             "requests/s of the load",
-            "its answers, ms: median / 99 % / worst",
+            "answer times of the load, ms: median / 99 % / worst",
             "errors",
         ],
         rows,
     )
-    text += f"\nThe medians are {alone:.1f} frames/s alone and {beside:.1f} beside the load: the session keeps {100 * kept:.0f} % of its frames. wrk ran at nice {arguments.wrk_nice}; an error is a connection, read or write that failed, 10 s without an answer, or a status of 400 or more.\n"
+    text += f"\nThe medians are {alone:.1f} frames/s without the load and {beside:.1f} with it: the session keeps {100 * kept:.0f} % of its frames. wrk ran at nice {arguments.wrk_nice}; an error is a connection, read or write that failed, 10 s without an answer, or a status of 400 or more.\n"
     measure.save(arguments.out, "load-200", h, {"rounds": rounds, "kept": kept}, text)
 
 

@@ -57,12 +57,12 @@ def least(runs, kind):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--rounds", type=int, default=3, help="runs of each scene, in turn (3)")
+    p.add_argument("--rounds", type=int, default=3, help="runs of each scene, in alternation (3)")
     p.add_argument("--repeat", type=int, default=5, help="frames of each kind in a run (5)")
     p.add_argument(
         "--before",
         type=pathlib.Path,
-        help="another build directory, whose smooth disk (bench/scenes/frame.json) is timed too",
+        help="another build directory, whose smooth disk (bench/scenes/frame.json) is measured too",
     )
     o = p.parse_args()
     bench, kerrd = measure.binary(o.build, "bench/kd_bench_frame"), measure.binary(o.build, "src/kerrd")
@@ -98,8 +98,8 @@ def main():
                 *(f"{f[kind][WALL] - base[kind][WALL]:+.1f}" for kind in ("cold", "reused")),
             ]
         )
-    text = measure.head_markdown("What each feature of the look costs", h)
-    text += f"640 × 360, two lavapipe threads, ms, least of {o.rounds * o.repeat} frames; passes of a frame whose lens map is traced.\n\n"
+    text = measure.head_markdown("Cost of each visual feature", h)
+    text += f"640 × 360, two lavapipe threads, ms, least of {o.rounds * o.repeat} frames; passes are those of a frame with a new lens map.\n\n"
     text += measure.table(["scene", *passes, "all, cold", "all, reused", "more, cold", "more, reused"], rows)
     measure.save(o.out, "look", h, {"figures": figures}, text)
 

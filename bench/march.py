@@ -90,12 +90,12 @@ def told(kerrd, scene):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--rounds", type=int, default=2, help="runs of each scene, in turn (2)")
+    p.add_argument("--rounds", type=int, default=2, help="runs of each scene, in alternation (2)")
     p.add_argument("--repeat", type=int, default=3, help="frames of each kind in a run (3)")
     p.add_argument(
         "--before",
         type=pathlib.Path,
-        help="another build directory, whose smooth disk (bench/scenes/frame.json) is timed too",
+        help="another build directory, whose smooth disk (bench/scenes/frame.json) is measured too",
     )
     o = p.parse_args()
     bench, kerrd = measure.binary(o.build, "bench/kd_bench_frame"), measure.binary(o.build, "src/kerrd")
@@ -143,7 +143,7 @@ def main():
                 f"{f['reused_ms']:.0f}",
             ]
         )
-    text = measure.head_markdown("What volumes cost", h)
+    text = measure.head_markdown("Cost of volumes", h)
     text += (
         f"Rays at {RAYS[0]} × {RAYS[1]} by one thread on one core; frames at {FRAME[0]} × {FRAME[1]} by two; ms, least of {o.rounds * o.repeat}. "
         f"Blacklight follows {BLACKLIGHT[0]} to {BLACKLIGHT[1]} rays/s and core through a smooth volume.\n\n"
@@ -153,8 +153,8 @@ def main():
             "scene",
             "march, ms",
             "k rays/s and core",
-            "times Blacklight's best",
-            "error, 9 rays of 10",
+            "multiple of Blacklight's best",
+            "error, 90th percentile",
             "error, worst",
             "frame, cold",
             "frame, reused",

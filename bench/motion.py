@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures the shimmer of gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane, with one
-ray a pixel compared with 64.
+"""Measures the shimmer of gas that moves by a tenth of a pixel a frame, with one ray a pixel compared with 64. The gas
+is seen from 5 and from 30 degrees above its plane.
 
     bench/motion.py            about five minutes, on an idle machine
 
 The script starts its own server and renders a hundred frames of 320 x 180, in linear light. It computes each pixel's
 variance in time, and the mean square of the change from frame to frame. Both are given relative to pictures of 64 rays
-a pixel, once for the whole picture and once for the pixels with the finest gas, where one ray a pixel is worst. Needs
+a pixel. The variance is also given for the tenth of the pixels that change most, where one ray a pixel is worst. Needs
 numpy. Writes bench/results/DATE-DEVICE-motion.{json,md}.
 """
 
@@ -83,7 +83,7 @@ def figures(light, truth):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--inclinations", default="85,60", help="degrees (85,60)")
+    p.add_argument("--inclinations", default="85,60", help="inclinations in degrees (85,60)")
     o = p.parse_args()
     kerrd = measure.binary(o.build, "src/kerrd")
     load = os.getloadavg()[0]
@@ -108,16 +108,16 @@ def main():
     finally:
         server.terminate()
     h = measure.head(device, load)
-    text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, against 64 rays a pixel", h)
-    text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, square roots of linear light; 1 is the truth's.\n\n"
+    text = measure.head_markdown("Gas moved by a tenth of a pixel a frame, compared with 64 rays a pixel", h)
+    text += f"{WIDTH} × {HEIGHT}, {FRAMES} frames of the default scene's gas, as square roots of linear light. 1 is the value with 64 rays a pixel.\n\n"
     text += measure.table(
         [
             "inclination",
             "rays a pixel",
             "variance in time",
-            "of the finest tenth",
-            "steps from frame to frame",
-            "off by, of white",
+            "of the tenth that changes most",
+            "changes from frame to frame",
+            "RMS difference, of white",
         ],
         [
             [

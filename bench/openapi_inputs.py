@@ -116,7 +116,7 @@ def main():
     arguments.add_argument("server", nargs="?", default=ROOT / "build/tests/http/fake_server")
     arguments.add_argument("--count", type=int, default=150, help="inputs for each operation")
     arguments.add_argument("--seconds", type=float, default=60)
-    arguments.add_argument("--only", default="", metavar="WORD", help='operations whose name has this in it, as "POST"')
+    arguments.add_argument("--only", default="", metavar="WORD", help='operations whose name contains this, as "POST"')
     options = arguments.parse_args()
     daemon.COMMAND[:] = [str(options.server)]
     server = daemon.Daemon()

@@ -179,7 +179,7 @@ def main():
     from playwright.sync_api import sync_playwright
 
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--seconds", type=float, default=6, help="of each row (6)")
+    p.add_argument("--seconds", type=float, default=6, help="seconds for each row (6)")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     server = subprocess.Popen(
         [measure.binary(arguments.build, "src/kerrd"), "serve", "--port", "0"], stdout=subprocess.PIPE, text=True
@@ -201,15 +201,15 @@ def main():
         server.wait()
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
     text = measure.head_markdown("The page in Chromium, %d × %d" % tuple(WINDOW.values()), h)
-    text += f"First picture: {first} ms after the start of the page (asked for: less than 500), the median of five.\n\n"
+    text += f"First picture: {first} ms after the start of the page (target: below 500), the median of five.\n\n"
     text += measure.table(
         [
             "what moves",
             "frames/s",
-            "asked for",
-            "width of the picture, of the window",
+            "target",
+            "width of the picture and of the window",
             "server, ms",
-            "of it encoding",
+            "of this, encoding",
             "browser, ms",
             "kB",
         ],

@@ -38,7 +38,7 @@ def main():
     given = parser.parse_args()
     kerrd = (given.old if given.scenes_of == "old" else given.new) / "src/kerrd"
     clock = given.new.resolve() / "bench/libkd_bench_cpu_clock.so"
-    print("| scene | pass | old, ms | new, ms | ratio of the least | of the medians |\n|---|---|---|---|---|---|")
+    print("| scene | pass | old, ms | new, ms | ratio of least times | ratio of medians |\n|---|---|---|---|---|---|")
     for preset in given.presets:
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             scene = subprocess.run(

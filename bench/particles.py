@@ -41,7 +41,7 @@ def main():
     )
     text += (
         "\nDevice time of the pass `particles` of a frame whose lens map is reused: positions at another time, their weights on the grid, "
-        f"density.\n{o.rounds * o.repeat} frames. A particle itself takes no memory: it is worked out from its number.\n"
+        f"density.\n{o.rounds * o.repeat} frames. Particles take no memory, because each is computed from its number.\n"
     )
     measure.save(o.out, "particles", h, {"figures": figures}, text)
 

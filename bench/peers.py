@@ -185,10 +185,10 @@ def thousands(x):
 def main():
     p = measure.parser(__doc__.split("\n")[0])
     p.formatter_class = argparse.ArgumentDefaultsHelpFormatter
-    p.add_argument("--rounds", type=int, default=9, help="of each code, in turn")
+    p.add_argument("--rounds", type=int, default=9, help="rounds of each code, in alternation")
     p.add_argument("--side", type=int, default=1032, help="pixels a side, a multiple of 24")
-    p.add_argument("--sample", type=int, default=48, help="N x N rays are judged")
-    p.add_argument("--volume-rounds", type=int, default=1, help="of each volume at each size")
+    p.add_argument("--sample", type=int, default=48, help="errors are measured on N x N rays")
+    p.add_argument("--volume-rounds", type=int, default=1, help="rounds of each volume at each size")
     p.add_argument("--sizes", type=int, nargs=2, default=[64, 160], help="pixels a side of the volumes' two pictures")
     o = p.parse_args()
     if o.side < 24 or o.side % (2 * HALF_WIDTH):
@@ -262,28 +262,28 @@ def main():
     h = measure.head(ours[0]["device"], load)
     text = measure.head_markdown("kerrd and kerrz", h)
     text += (
-        f"a = {SPIN}, i = {INCLINATION:g}°, ±{HALF_WIDTH} M, {o.side} × {o.side} rays; {o.rounds} rounds in turn, one "
-        "thread on one core;\nmedians of the rounds, and for the ratio of each round's ratio; the best round is the "
-        "one that\nother work disturbed least. Errors are relative, of the first crossing's radius.\n\n"
+        f"a = {SPIN}, i = {INCLINATION:g}°, ±{HALF_WIDTH} M, {o.side} × {o.side} rays; {o.rounds} rounds in alternation, "
+        "one thread on one core.\nFigures are medians of the rounds. A ratio is the median of each round's ratio. The best "
+        "round is the one\nthat other work disturbed least. Errors are relative errors of the first crossing's radius.\n\n"
     )
     text += measure.table(
         ["computes", "code", "method", "rays/s/core", "ratio", "best round", "ratio", "r: median", "worst"], rows
     )
     text += (
-        f"\nThe observer is at infinity for kerrd and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity: its "
-        f"radii differ from\nthose at infinity by {errors['r_median_to_infinity']:.0e} (median). Its errors are taken "
-        "with its own start and constants of motion, so that this\ndifference is not counted.\n\n"
-        "Timed: kerrd's trace pass by the device's own timestamps (camera to crossings in memory, three crossings a "
-        "ray unless\none is said); kerrz's `image` command by the time that it prints (camera to mapped value), which "
-        "leaves out starting up\nand writing the file. kerrz follows a ray to a second crossing only where the first "
-        "misses its disk, and computes only\nwhat its mapper asks for. Delays are of listed rays, by the clock of the host. "
-        f"For r, t and φ of a crossing AART takes\n{thousands(AART)} rays/s and core, geokerr {thousands(GEOKERR)}, "
-        "measured before on such a machine.\n\n## Through volumes\n\n"
+        f"\nThe observer is at infinity for kerrd, and at r = {OBSERVER:.0e} M for kerrz, which has none at infinity. Its "
+        f"radii differ from\nthose at infinity by {errors['r_median_to_infinity']:.0e} (median). Its errors are computed "
+        "for its own start and constants of motion, so that this\ndifference is not counted.\n\n"
+        "kerrd's time is that of the trace pass, by the device's timestamps (camera to crossings in memory; three "
+        "crossings a ray,\nunless the table says one). kerrz's time is the one that its `image` command prints (camera to mapped value).\n"
+        "It excludes startup and the writing of the file. kerrz follows a ray to a second crossing only where the first misses its disk,\n"
+        "and computes only what its mapper needs. Delays are measured for listed rays, in wall time of the host. "
+        f"For r, t and φ of a crossing AART computes\n{thousands(AART)} rays/s and core, geokerr {thousands(GEOKERR)}, "
+        "measured earlier on a machine of the same kind.\n\n## Through volumes\n\n"
         f"Blacklight follows some {thousands(radio.BLACKLIGHT)} rays/s and core of gold-1, unpolarised, and ipole "
         f"{radio.IPOLE} of its riaf, polarised.\n\n"
     )
     text += measure.table(
-        ["scene", "k rays/s and core", "beside others", "error, 9 rays of 10"],
+        ["scene", "k rays/s and core", "compared with others", "error, 90th percentile"],
         [
             [v["scene"], f"{v['rays_per_s_core'] / 1e3:.1f}", v["beside"], measure.error(v["volume_error"])]
             for v in volumes

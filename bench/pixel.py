@@ -103,9 +103,9 @@ def run_new(path, preset, n):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--before", help="another program, measured in turn")
-    p.add_argument("--number", type=int, default=60, help="pixels a row (60)")
-    p.add_argument("--new", action="store_true", help="views whose kernels are new")
+    p.add_argument("--before", help="another program, measured in alternation")
+    p.add_argument("--number", type=int, default=60, help="pixels for each row of the table (60)")
+    p.add_argument("--new", action="store_true", help="measure views whose kernels are new")
     p.add_argument("--presets", nargs="+", default=["gas", "gas-stars"])
     arguments, load = p.parse_args(), os.getloadavg()[0]
     programs = {"now": measure.binary(arguments.build, "src/kerrd")}

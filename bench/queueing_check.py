@@ -68,7 +68,7 @@ def go_first():
     try:
         os.setpriority(os.PRIO_PROCESS, 0, PRIORITY - 10)
     except PermissionError:
-        print("not allowed to go before the servers: answers come some milliseconds later", file=sys.stderr)
+        print("no permission to raise this script's priority: answers are measured some ms late", file=sys.stderr)
 
 
 def free_port():
@@ -377,7 +377,7 @@ def tables(rows, naps):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--pictures", type=int, default=600, help="of each run (600)")
+    p.add_argument("--pictures", type=int, default=600, help="pictures in each run (600)")
     p.add_argument(
         "--rounds",
         type=int,

@@ -252,13 +252,13 @@ def plot(result, checked, path):
 
 def tables(r):
     ms = lambda seconds: f"{1e3 * seconds:.0f}"
-    text = f"Pictures: 95th percentile of the answer time in ms, by load; {EACH} a server, from when nothing was under way. From 1 on it grows as long as the load lasts.\n\n"
+    text = f"Pictures: 95th percentile of the answer time in ms, by load; {EACH} pictures for each server, which is idle at the start. From load 1 on, the time grows as long as the load lasts.\n\n"
     text += measure.table(
         ["servers", *(f"{load:g}" for load in LOADS)],
         [[str(n), *(ms(row[load]) if load in row else "" for load in LOADS)] for n, row in r["curves"].items()],
     )
     text += "\n" + measure.table(
-        ["servers", "load", "load after one is lost", "95 % before, ms", "and after", "failed"],
+        ["servers", "load", "load after one is lost", "95th percentile before, ms", "after, ms", "failed"],
         [
             [
                 str(x["n"]),
@@ -290,9 +290,9 @@ def tables(r):
             for x in r["dragging"]
         ],
     )
-    text += f"\nVisitors who drag for {STROKES['drag']:g} s and rest for {STROKES['rest']:g}, in the mean:\n\n"
+    text += f"\nVisitors who drag for {STROKES['drag']:g} s and rest for {STROKES['rest']:g} on average:\n\n"
     text += measure.table(
-        ["visitors a server", "servers", "input to picture, ms: median", "95 %", "device busy"],
+        ["visitors a server", "servers", "input to picture, ms: median", "95 %", "devices busy"],
         [
             [str(x["each"]), str(x["n"]), ms(x["median_s"]), ms(x["p95_s"]), f"{100 * x['busy']:.0f} %"]
             for x in r["visitors"]
@@ -314,9 +314,9 @@ def tables(r):
 
 def main():
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("plan", type=pathlib.Path, help="of bench/scale_plan.py")
-    p.add_argument("queueing", type=pathlib.Path, help="of bench/queueing_check.py")
-    p.add_argument("--plot", help="SVG")
+    p.add_argument("plan", type=pathlib.Path, help="JSON result of bench/scale_plan.py")
+    p.add_argument("queueing", type=pathlib.Path, help="JSON result of bench/queueing_check.py")
+    p.add_argument("--plot", help="SVG file for the plot")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     plan, checked = (json.loads(path.read_text()) for path in (arguments.plan, arguments.queueing))
     measured, (habits, rows) = checked["pictures"], habits_of(plan)

@@ -100,7 +100,7 @@ def figures_of(least, told, sizes):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--rounds", type=int, default=3, help="runs of each scene at each size, in turn (3)")
+    p.add_argument("--rounds", type=int, default=3, help="runs of each scene at each size, in alternation (3)")
     p.add_argument(
         "--sizes", type=int, nargs=2, default=[64, 160], help="pixels along a side of the two pictures (64 160)"
     )
@@ -125,12 +125,12 @@ def main():
         )
     text = measure.head_markdown("Rays a second and core at radio frequencies", h)
     text += (
-        f"Pictures of {o.sizes[0]} and {o.sizes[1]} pixels a side by one thread, one ray a pixel: the difference of their rays over that of their processor times, each the least of {o.rounds}. "
+        f"Pictures of {o.sizes[0]} and {o.sizes[1]} pixels a side by one thread, one ray a pixel: the difference of their numbers of rays divided by the difference of their processor times, each the least of {o.rounds} runs. "
         f"Blacklight follows some {BLACKLIGHT} rays/s and core, ipole {IPOLE} of polarised light. "
-        "Starts differ by a tenth of a second on a machine that others use: a rate is as good as the difference of the times is large beside that.\n\n"
+        "On a machine with other work, startup times vary by a tenth of a second. A rate is reliable if the difference of the times is much larger.\n\n"
     )
     text += measure.table(
-        ["scene", "k rays/s and core", "beside others", "processor time of both pictures, s", "error, 9 rays of 10"],
+        ["scene", "k rays/s and core", "compared with others", "processor time of both, s", "error, 90th percentile"],
         rows,
     )
     measure.save(o.out, "radio", h, {"figures": figures}, text)

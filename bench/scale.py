@@ -84,8 +84,8 @@ def main():
     import numpy as np
 
     p = measure.parser(__doc__.splitlines()[0])
-    p.add_argument("--scenes", type=int, default=1000, help="how many (1000)")
-    p.add_argument("--size", default="64x48", help="of each (64x48)")
+    p.add_argument("--scenes", type=int, default=1000, help="number of scenes (1000)")
+    p.add_argument("--size", default="64x48", help="size of each scene (64x48)")
     arguments, load = p.parse_args(), os.getloadavg()[0]
     binary = str(pathlib.Path(measure.binary(arguments.build, "src/kerrd")).resolve())
     width, height = map(int, arguments.size.split("x"))
@@ -119,16 +119,16 @@ def main():
     }
     h = measure.head(f"{device['name']}, {device['driver']} {device['driver_info']}", load)
     text = measure.head_markdown("Sweeps on two workers", h)
-    text += f"{n} scenes of {arguments.size}, {mean:.1f} ms of a server pinned to one core each.\n\n"
+    text += f"{n} scenes of {arguments.size}, each {mean:.1f} ms on a server pinned to one core.\n\n"
     text += measure.table(
-        ["", "seconds", "ms a scene and core beyond the server", "pictures that differ"],
+        ["", "seconds", "overhead in addition to the server's time, ms per scene and core", "pictures that differ"],
         [
-            ["one server, asked by the Python client", f"{one:.1f}", f"{figures['overhead_one_ms']:.2f}", "–"],
-            ["two workers of Dask, a core each", f"{two:.1f}", f"{figures['overhead_two_ms']:.2f}", str(differ)],
+            ["one server, used by the Python client", f"{one:.1f}", f"{figures['overhead_one_ms']:.2f}", "–"],
+            ["two workers of Dask, each on one core", f"{two:.1f}", f"{figures['overhead_two_ms']:.2f}", str(differ)],
             ["the same, one killed half-way", f"{broken:.1f}", "", str(lost)],
         ],
     )
-    text += f"\nTwo are {one / two:.2f} times as fast as one: an efficiency of {100 * figures['efficiency']:.0f} %.\n"
+    text += f"\nTwo workers are {one / two:.2f} times as fast as one server: an efficiency of {100 * figures['efficiency']:.0f} %.\n"
     measure.save(arguments.out, "scale", h, figures, text)
 
 

@@ -184,7 +184,7 @@ def tables(r):
         [
             "1280 × 720",
             "device s: median (least to most)",
-            "where only time is another one",
+            "device s when only the time changes",
             "PNG, s",
             "processor s, all",
         ],
@@ -202,18 +202,18 @@ def tables(r):
         ],
     )
     f = r["film"]
-    text += f"\nA minute of film, {FILM_FRAMES} frames once round the default scene: {f['minute_device_s']:.0f} s of the device and {f['minute_encode_s']:.0f} s of an encoder beside it, by {f['frame']['n']} frames of {f['frame']['median']:.3f} s ({f['frame']['least']:.3f} to {f['frame']['most']:.3f}; {f['processor']['median']:.3f} s of processor with the PNG).\n\n"
+    text += f"\nA minute of film, {FILM_FRAMES} frames once round the default scene: {f['minute_device_s']:.0f} s of device time and {f['minute_encode_s']:.0f} s of encoder time, estimated from {f['frame']['n']} frames of {f['frame']['median']:.3f} s ({f['frame']['least']:.3f} to {f['frame']['most']:.3f}; {f['processor']['median']:.3f} s of processor time including the PNG).\n\n"
     text += measure.table(
         [
             "dragged at once",
             "frames/s each",
             "input to picture, ms: median / worst 95 %",
-            "size, the least",
-            "a frame, ms of the device",
-            "of processor",
+            "smallest size",
+            "device time of a frame, ms",
+            "processor time of a frame, ms",
             "device s a second: all",
             "each",
-            "cores that it had",
+            "cores used by the server",
         ],
         [
             [
@@ -238,7 +238,7 @@ def tables(r):
         ],
     )
     text += "\n" + measure.table(
-        ["nothing moves", "final after, s", "device s until then", "frames in the seconds after", "cores in them"],
+        ["nothing moves", "time until final, s", "device s until then", "frames after that", "cores used after that"],
         [
             [
                 name,
@@ -281,7 +281,7 @@ def main():
         server.process.terminate()
         server.process.wait()
     h = measure.head(device, load)
-    measure.save(arguments.out, "plan", h, r, measure.head_markdown("What a machine can carry", h) + tables(r))
+    measure.save(arguments.out, "plan", h, r, measure.head_markdown("Capacity of a machine", h) + tables(r))
 
 
 if __name__ == "__main__":

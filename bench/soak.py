@@ -456,7 +456,7 @@ def faults_of_rest(rested):
     if rest > OTHER_MIB:
         yield f"{rested['rest_mib']:.0f} MiB are resident at rest: {rest:.0f} more than {rested['start_mib']:.0f} at the start and {bounded:.0f} in caches"
     if rested["next_view_s"] > 1.25 * rested["first_view_s"] + 0.2:
-        yield f"the next first view takes {rested['next_view_s']} s of the processors, the first one took {rested['first_view_s']}"
+        yield f"the next first view takes {rested['next_view_s']} s of processor time, the first one took {rested['first_view_s']}"
 
 
 def is_file_whole(path):
@@ -478,7 +478,7 @@ def left_over(state, known):
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
-            yield f"{path.relative_to(state)} is left of a job that is over"
+            yield f"{path.relative_to(state)} is left over from a job that has ended"
         elif path.is_file() and (not is_file_whole(path) or path.parent.suffix == ".new"):
             yield f"{path.relative_to(state)} is half a file"
 
@@ -524,7 +524,7 @@ def over_time(samples):
         )
         before = s
     return measure.table(
-        ["minute", "resident, MiB", "device, MiB", "descriptors", "threads", "answers as meant", "busy", "errors"], rows
+        ["minute", "resident, MiB", "device, MiB", "descriptors", "threads", "expected answers", "busy", "errors"], rows
     )
 
 
@@ -547,11 +547,11 @@ def main():
         "--pace",
         type=float,
         default=2,
-        help="things that each does in a second, at most (2): how much is asked, and so kept, does not depend on what else the machine does",
+        help="most actions of a client in a second (2), so that the load does not depend on the machine's other work",
     )
     p.add_argument("--seed", type=int, default=1)
-    p.add_argument("--kills", type=int, default=0, help="how often the server is killed meanwhile (0)")
-    p.add_argument("--faults", type=int, default=0, help="how many faults happen beneath it (0), about")
+    p.add_argument("--kills", type=int, default=0, help="number of times that the server is killed (0)")
+    p.add_argument("--faults", type=int, default=0, help="approximate number of injected faults (0)")
     a = p.parse_args()
     if a.faults and (a.minutes < 2 or a.kills):
         p.error("--faults takes --minutes of at least 2, and no --kills")
@@ -630,8 +630,8 @@ def main():
     }
     jobs = ", ".join(f"{how} {n}" for how, n in sorted(result["jobs"].items(), key=str))
     first, last = (late[0], late[-1]) if late else ({}, {})
-    text = measure.head_markdown(f"{a.minutes:g} minutes of everything, {a.clients} at once", head)
-    text += f"\n{killed} times killed, {sum(harm.counts.values()) if harm else 0} faults injected. Jobs: {jobs}. Found: {len(faults)}.\n\n"
+    text = measure.head_markdown(f"{a.minutes:g} minutes of random requests, {a.clients} clients", head)
+    text += f"\n{killed} times killed, {sum(harm.counts.values()) if harm else 0} faults injected. Jobs: {jobs}. Failed checks: {len(faults)}.\n\n"
     text += over_time(samples) + "\n"
     if growth:
         text += (
@@ -648,11 +648,11 @@ def main():
         ledger = [
             ["resident at the start", f"{rested['start_mib']:.0f}"],
             ["a minute after the last client", f"{rested['rest_mib']:.0f}"],
-            *[[f"of that kept: {kind}", f"{mib:.0f}"] for kind, mib in rested["kept_mib"].items()],
+            *[[f"of this, kept: {kind}", f"{mib:.0f}"] for kind, mib in rested["kept_mib"].items()],
         ]
         text += (
             measure.table(["memory", "MiB"], ledger)
-            + f"\nOf the processors the first view took {rested['first_view_s']} s, the next one after the rest {rested['next_view_s']} s.\n\n"
+            + f"\nProcessor time of the first view: {rested['first_view_s']} s; of the next view after the rest: {rested['next_view_s']} s.\n\n"
         )
     text += measure.table(["what", "how often"], [[name, str(n)] for name, n in sorted(world.counts.items())])
     if harm:

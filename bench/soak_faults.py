@@ -84,7 +84,7 @@ class Faults:
         else:
             self.wall_s += r.choice([-1, 1]) * r.randint(1, 10**6)
             self.memory.set("wall_s", self.wall_s)
-            self.kind = "the clock on the wall is set"
+            self.kind = "the wall clock is set"
         return r.uniform(0.1, 2)
 
     def mend(self):

@@ -28,8 +28,8 @@ def merge(runs):
 
 def main():
     p = measure.parser(__doc__)
-    p.add_argument("--rounds", type=int, default=5, help="runs of each case, in turn (5)")
-    p.add_argument("--sample", type=int, default=64, help="N x N rays are judged (64)")
+    p.add_argument("--rounds", type=int, default=5, help="runs of each case, in alternation (5)")
+    p.add_argument("--sample", type=int, default=64, help="errors are measured on N x N rays (64)")
     o = p.parse_args()
     bench = measure.binary(o.build, "bench/kd_bench_trace")
     load = os.getloadavg()[0]

@@ -8,7 +8,7 @@
 const busy = [409, 429, 503, 507]; // statuses after which the same request may succeed later, if there is a Retry-After
 const once = ['POST /v1/jobs', 'POST /v1/sessions', 'POST /v1/playground']; // operations that take an Idempotency-Key
 const streams = ['text/event-stream', 'multipart/x-mixed-replace', 'application/x-kerrd-frames'];
-const most_broken = 3; // limit of broken connections, after which a request with a key fails
+const most_broken = 3; // number of times that a request with a key is sent again after its connection broke
 const frame_wait_s = 25; // time for which the server holds a request for a frame
 
 /**

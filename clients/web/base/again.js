@@ -1,6 +1,6 @@
 // Tasks that need the server and are retried after a failure. The error of a failed task is shown in place of its
-// result. If the error may be temporary (see passes() in server.js), the task runs again after again_ms, or when its
-// view next becomes visible. A button starts it at once.
+// result. If the error may be temporary (see passes() in server.js), the task runs again after again_ms, but not
+// before its view is visible. A button starts it at once.
 import { el, latest, seen } from './dom.js';
 import { t, tell } from '../words/i18n.js';
 import { passes } from './server.js';

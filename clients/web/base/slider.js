@@ -1,5 +1,5 @@
 // Sliders and arrow keys for a number with known range, unit and default: { minimum, maximum, unit, default, type }.
-const decades = 30; // if the ends of a range have at least this ratio, its slider is logarithmic
+const decades = 30; // if the ends of a range have a greater ratio, its slider is logarithmic
 const positions = 1000;
 
 // Returns the scale of a range and its inverse, or null if the slider is linear. A wide range is logarithmic. If such a
@@ -28,9 +28,9 @@ export function scale(range) {
 
 const power = x => 10 ** Math.floor(Math.log10(x));
 
-// The step of an arrow key. In a linear range it is about a hundredth of the range; in a logarithmic range, a tenth of
-// the leading digit. In a logarithmic range that begins at 0, about ten steps lead from 0 to the default, and below a
-// tenth of the default a step is one unit of the leading digit.
+// The step of an arrow key. P(x): the largest power of ten up to x. In a linear range the step is P(range)/100. In a
+// logarithmic range it is P(value)/10. In a logarithmic range that begins at 0, it is at least P(default)/10, except
+// for values below that, where it is P(value).
 function step(range, value) {
   const size = Math.abs(value);
   if (!spread(range)) return power(range.maximum - range.minimum) / 100;

@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // The field that the wheel and a pinch change. At infinity, or if a drag looks around, this is the field of view.
-  // Otherwise it is the distance, which stays outside every static limit (r = 2 M) unless the camera is already inside.
+  // The field that the wheel and a pinch change. In the projection "ring" it is the innermost decade. At infinity, or
+  // if a drag looks around, it is the field of view. Otherwise it is the distance, kept outside the static limit (2 M).
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };

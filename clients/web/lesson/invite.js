@@ -1,4 +1,4 @@
-// How pupils join a lesson: its link, and the QR code of the link in large.
+// How pupils join a lesson: its link, and a large QR code of the link.
 import { byId, el } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import { module } from '../base/server.js';

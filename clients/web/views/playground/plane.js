@@ -4,8 +4,8 @@ import { aim, bar, circles, distances } from './marks.js';
 import { Dust } from './dust.js';
 import { physics } from '../../base/server.js';
 
-// past: number of points of a trail. Up to `few` bodies all have full trails. If there are more than `none` bodies,
-// none has a trail.
+// past: number of points of a trail, if there are up to `few` bodies. For more bodies it is 12. For more than `none`
+// there are no trails.
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
 const sample = 400; // number of pieces of debris that are examined to choose the view

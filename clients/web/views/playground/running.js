@@ -1,5 +1,5 @@
 // A playground on the server: sends changes to it, and follows its state. Positions of bodies are requested in binary
-// form for each drawing. Events come as a stream. If the server has ended the playground, because it stopped or nobody
+// form for each drawing. Events come as a stream. If the playground has ended, because the server stopped or nobody
 // watched, this module starts it again.
 import { again_ms } from '../../base/again.js';
 import { seen } from '../../base/dom.js';

@@ -55,7 +55,7 @@ function triangles(columns) {
     .sort((a, b) => a.length - b.length);
 }
 
-// Selects the triangles of stations with the most data. For each, returns the triangle of its middle row.
+// Selects the triangles of stations with the most data. For each, returns its triangle of median length.
 function shapes(all) {
   const by = {};
   for (const one of all) (by[one.corners] ??= []).push(one);

@@ -16,7 +16,7 @@ Numbers = NDArray[np.float64]
 C, K = 2.99792458e10, 1.380649e-16
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
 GM_SUN = 1.3271244e26
-THETA_LEAST = 1e-3  # upper limit of k T/(m_e c^2), as in ipole
+THETA_LEAST = 1e-3  # lower limit of k T/(m_e c^2), as in ipole
 PEAK = 1e6  # value in cm^-3 that the largest density gets if the code's unit is unknown
 
 
