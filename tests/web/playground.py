@@ -93,8 +93,10 @@ class Playground(Browser):
             t = self.state()["t"]
             page.click("#play-step")
             page.wait_for_function('t => Number(document.getElementById("play-clock").dataset.t) > t', arg=t)
-        page.evaluate('by => document.getElementById("play-rate").value = by', 8000)
-        page.dispatch_event("#play-rate", "change")
+        # in one call, because the page writes the present rate into the field with each update
+        page.locator("#play-rate").evaluate(
+            '(rate, by) => { rate.value = by; rate.dispatchEvent(new Event("change", { bubbles: true })); }', 8000
+        )
         self.assertTrue(daemon.eventually(lambda: self.state()["rate"] == 8000))
         page.click("#play-step")
         self.assertTrue(daemon.eventually(lambda: self.state()["t"] > state["t"] + 400))

@@ -1,13 +1,13 @@
-// The parts of the view See whose modules are loaded later: those that a button or a key opens, and those that only some
-// scenes need.
+// The parts of the view See whose modules are loaded later: those that a button or a key opens, and those that only
+// some scenes need.
 import { apart } from '../time/living.js';
 import { byId } from '../base/dom.js';
 import { module } from '../base/server.js';
 import { sayWrong } from '../words/status.js';
 
 // A part of the page whose module is loaded when it is first used. Returns use(what), which calls what(part), and
-// use.loaded(what), which does so only if the part has been used before. load returns a promise of the part. If it fails,
-// fails(error) is called, and the next use loads the part again.
+// use.loaded(what), which does so only if the part has been used before. load returns a promise of the part. If it
+// fails, fails(error) is called, and the next use loads the part again.
 function late(load, fails = () => {}) {
   let part = null;
   function use(what = () => {}) {
@@ -21,8 +21,7 @@ function late(load, fails = () => {}) {
   return use;
 }
 
-// The parts that a button or a key opens.
-// size(): size of the picture. address(): address of the session.
+// The parts that a button or a key opens. size(): size of the picture. address(): address of the session.
 export function buildAsked(stage, scene, size, address) {
   const part = load => late(load, sayWrong),
     fall = part(async () => (await module(import('../time/fall.js'))).buildFall(scene)),
@@ -64,6 +63,7 @@ export function buildAsked(stage, scene, size, address) {
 }
 
 // Drawings and panels that only some scenes need.
+//
 // parts: promise of { drawOverlays }. size(): size of the picture. address(): address of the session.
 export function buildNeeded(stage, scene, parts, size, address) {
   const light = late(async () => (await import('../time/light.js')).buildLight(byId('light'), scene)),
